@@ -1,0 +1,2 @@
+//! The tautline command line.
+fn main() {}

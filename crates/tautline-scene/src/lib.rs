@@ -1,0 +1,1 @@
+//! Scene documents, the registry of named scenes, mesh files in and recordings out.

@@ -1,0 +1,1 @@
+//! Builders of bodies: each turns a description into particles, constraints and geometry.

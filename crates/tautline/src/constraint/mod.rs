@@ -1,0 +1,1 @@
+//! Kernels of constraints: values in, corrections out.

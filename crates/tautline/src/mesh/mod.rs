@@ -1,0 +1,2 @@
+//! Surfaces and solids: half-edge meshes, primitives, hulls, tetrahedra and mass properties. Knows no
+//! world.

@@ -1,0 +1,1 @@
+//! The step, phase by phase.

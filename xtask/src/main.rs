@@ -1,0 +1,2 @@
+//! Project tasks: `cargo xtask test` runs everything that must pass.
+fn main() {}
