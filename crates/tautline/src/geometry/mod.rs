@@ -1,2 +1,10 @@
 //! Geometric queries on values: spheres and their trees, support mappings, GJK and EPA, features. Knows no
 //! world.
+
+pub mod closest;
+pub mod distance;
+pub mod epa;
+pub mod feature;
+pub mod gjk;
+pub mod simplex;
+pub mod support;
