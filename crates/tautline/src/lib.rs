@@ -13,4 +13,4 @@ mod step;
 mod world;
 
 pub use error::{Error, MeshDefect};
-pub use glam::{Mat3, Quat, Vec3};
+pub use glam::{DVec3, Mat3, Quat, Vec3};
