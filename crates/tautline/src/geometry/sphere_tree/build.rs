@@ -37,7 +37,7 @@ impl Feature {
 /// `2n − 1` nodes for `n` features the last `n` are the leaves; leaf `k` is node `n − 1 + k`. So siblings are
 /// neighbours in memory, a bottom-up pass runs backwards through an array, no leaf is deeper than ⌈log₂ n⌉,
 /// and no stored link can be wrong.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Topology {
     /// Per leaf.
     features: Vec<Feature>,

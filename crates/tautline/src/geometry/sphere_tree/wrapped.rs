@@ -19,7 +19,7 @@ use crate::geometry::{Support, smallest_enclosing_sphere};
 /// Trusses give a little, so radii are enlarged by `padding`, a fraction. Spheres go on containing
 /// their geometry while it is stretched by at most that fraction in every direction (any affine map: centre and geometry
 /// map alike, and no distance grows by more). For other deformations [`WrappedTree::padding_needed`] measures it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct WrappedTree {
     topology: Topology,
     padding: f32,

@@ -22,7 +22,7 @@ use crate::{Error, MeshDefect};
 ///
 /// Serialised as its triangles and built anew from them, so that bytes from anywhere either give a mesh that
 /// holds every invariant or an error.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "build::Triangles", into = "build::Triangles")]
 pub struct HalfEdgeMesh {
     /// Start of every half-edge.
