@@ -1,7 +1,7 @@
 //! The half-edge mesh: round trips, circulators against brute force, every defect with its place.
 
 use proptest::prelude::*;
-use tautline::mesh::{HalfEdgeMesh, TriMesh, primitives};
+use tautline::mesh::{HalfEdgeMesh, TriMesh, convex_hull, primitives};
 use tautline::{Error, MeshDefect, Vec3};
 
 fn build(vertex_count: usize, triangles: &[[u32; 3]]) -> Result<HalfEdgeMesh, Error> {
@@ -28,7 +28,18 @@ fn compact(triangles: &[[u32; 3]]) -> (usize, Vec<[u32; 3]>) {
     (used.len(), triangles.iter().map(|corners| corners.map(rename)).collect())
 }
 
-/// Sheets, spheres and tori with some triangles missing, in any order and with any first corner. What is left
+/// A sheet of 6 × 6 cells with a hole of this many cells.
+fn windowed_grid(columns: usize, rows: usize) -> TriMesh {
+    let mut mesh = primitives::grid(7, 7, 1.0, 1.0).unwrap();
+    let mut cell = 0..;
+    mesh.triangles.retain(|_| {
+        let cell = cell.next().unwrap_or(0) / 2;
+        !((1..=columns).contains(&(cell % 6)) && (1..=rows).contains(&(cell / 6)))
+    });
+    mesh
+}
+
+/// Sheets, sheets with a window, hulls, spheres and tori, whole or with some triangles missing, in any order and with any first corner. What is left
 /// may well have bow-ties; those are for the builder to find.
 fn surfaces() -> impl Strategy<Value = (usize, Vec<[u32; 3]>)> {
     let base = prop_oneof![
@@ -38,10 +49,14 @@ fn surfaces() -> impl Strategy<Value = (usize, Vec<[u32; 3]>)> {
         (3_u32..9, 3_u32..7)
             .prop_map(|(segments, sides)| primitives::torus(1.0, 0.3, segments, sides).unwrap()),
         (0_u32..2).prop_map(|subdivisions| primitives::icosphere(1.0, subdivisions).unwrap()),
+        (1_usize..4, 1_usize..4).prop_map(|(columns, rows)| windowed_grid(columns, rows)),
+        prop::collection::vec([-1.0_f32..1.0, -1.0_f32..1.0, -1.0_f32..1.0], 4..30).prop_map(|points| {
+            convex_hull(&points.into_iter().map(Vec3::from).collect::<Vec<_>>()).unwrap().mesh
+        }),
     ];
     let shuffled = base.prop_flat_map(|mesh| Just(mesh.triangles).prop_shuffle());
-    (shuffled, 0.0_f64..0.2, prop::collection::vec((0.0_f64..1.0, 0_usize..3), 200)).prop_map(
-        |(triangles, holes, draws)| {
+    (shuffled, prop_oneof![Just(0.0), 0.0_f64..0.2], prop::collection::vec((0.0_f64..1.0, 0_usize..3), 200))
+        .prop_map(|(triangles, holes, draws)| {
             let mut kept: Vec<[u32; 3]> = Vec::new();
             for (&corners, &(draw, turn)) in triangles.iter().zip(draws.iter().cycle()) {
                 if kept.is_empty() || draw >= holes {
@@ -51,8 +66,7 @@ fn surfaces() -> impl Strategy<Value = (usize, Vec<[u32; 3]>)> {
                 }
             }
             compact(&kept)
-        },
-    )
+        })
 }
 
 /// The directed sides of the faces, each with its face.
@@ -276,6 +290,25 @@ fn a_closed_surface_with_a_triangle_missing_names_its_first_open_edge() {
     let [a, b, _] = corners;
     let mesh = build(6, &triangles).unwrap();
     assert_eq!(mesh.require_closed(), Err(MeshDefect::OpenEdge { a, b }.into()));
+}
+
+#[test]
+fn loops_run_clockwise_around_the_surface_and_counter_clockwise_around_holes() {
+    let mesh = windowed_grid(2, 3);
+    let (count, triangles) = compact(&mesh.triangles);
+    let loops = build(count, &triangles).unwrap().boundary_loops();
+    assert_eq!(loops.iter().map(Vec::len).collect::<Vec<_>>(), [24, 10]);
+
+    let sheet = primitives::grid(3, 3, 2.0, 2.0).unwrap();
+    let around = &HalfEdgeMesh::from_mesh(&sheet).unwrap().boundary_loops()[0];
+    let area: f32 = (0..around.len())
+        .map(|k| {
+            sheet.positions[around[k] as usize]
+                .cross(sheet.positions[around[(k + 1) % around.len()] as usize])
+                .y
+        })
+        .sum();
+    assert_eq!(area, -8.0); // Twice the area, negative for clockwise seen from above.
 }
 
 #[test]

@@ -3,8 +3,12 @@
 
 mod exact;
 mod half_edge;
+mod hull;
+mod mass_properties;
 pub mod primitives;
 mod tri_mesh;
 
 pub use half_edge::HalfEdgeMesh;
+pub use hull::{ConvexHull, convex_hull};
+pub use mass_properties::MassProperties;
 pub use tri_mesh::TriMesh;
