@@ -140,14 +140,16 @@ proptest! {
 
     #[test]
     fn quad_spheres_are_nearly_smallest(corners in prop::array::uniform4(point())) {
-        let sphere = Sphere::around_quad(corners);
+        let [a, b, c, d] = corners;
+        let sphere = Sphere::around_quad(a, b, c, d);
         prop_assert!(corners.iter().all(|&p| contains(sphere, p)));
         prop_assert!(f64::from(sphere.radius) <= brute_force_radius(&corners) * 1.0101);
     }
 
     #[test]
     fn degenerate_quad_spheres_are_nearly_smallest(corners in prop::array::uniform4(lattice_point())) {
-        let sphere = Sphere::around_quad(corners);
+        let [a, b, c, d] = corners;
+        let sphere = Sphere::around_quad(a, b, c, d);
         prop_assert!(corners.iter().all(|&p| contains(sphere, p)));
         prop_assert!(f64::from(sphere.radius) <= brute_force_radius(&corners) * 1.0101);
     }
