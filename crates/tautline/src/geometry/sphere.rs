@@ -47,9 +47,9 @@ impl Sphere {
         let offset = b.center - a.center;
         let distance = offset.length();
         // Where on the way from a's centre to b's; clamped, it is the centre of the one that contains the other.
-        let along = 0.5 + 0.5 * (b.radius - a.radius) / distance.max(f32::MIN_POSITIVE);
+        let along = 0.5 + 0.5 * (b.radius - a.radius) / larger(distance, f32::MIN_POSITIVE);
         let center = a.center + offset * along.clamp(0.0, 1.0);
-        let radius = (0.5 * (distance + a.radius + b.radius)).max(a.radius).max(b.radius);
+        let radius = larger(0.5 * (distance + a.radius + b.radius), larger(a.radius, b.radius));
         // Here the radius is not measured from the centre, so the centre's own rounding counts too.
         let center_rounding = f32::EPSILON * (center.x.abs() + center.y.abs() + center.z.abs());
         Sphere { center, radius: radius * DISTANCE_ROUNDING + center_rounding }
@@ -80,52 +80,57 @@ impl Sphere {
             } else {
                 a + ab * 0.5
             };
-            return widened(center, farthest_squared(center, [a, b, c, c]));
+            return widened(center, farthest_squared(center, a, b, c, c));
         }
         let center = a + (ab * weight_b + ac * weight_c) / (weight_a + weight_b + weight_c);
-        widened(center, farthest_squared(center, [a, b, c, c]))
+        widened(center, farthest_squared(center, a, b, c, c))
     }
 
     /// A sphere around the four corners of a quad, given in order around it; its radius is at most 1 %
     /// above the smallest. Any four points are allowed, coplanar or not.
     #[inline]
-    pub fn around_quad(corners: [Vec3; 4]) -> Sphere {
-        let [a, b, c, d] = corners;
+    pub fn around_quad(a: Vec3, b: Vec3, c: Vec3, d: Vec3) -> Sphere {
         // A parallelogram's smallest sphere has the longer diagonal as diameter; a cell of a cloth is nearly one.
         let ac_longer = a.distance_squared(c) >= b.distance_squared(d);
         let (start, end) = if ac_longer { (a, c) } else { (b, d) };
         let center = start + (end - start) * 0.5;
-        let needed = farthest_squared(center, corners);
+        let needed = farthest_squared(center, a, b, c, d);
         if needed <= center.distance_squared(start) * QUAD_SLACK_SQUARED {
             return widened(center, needed);
         }
-        around_four(corners)
+        around_four([a, b, c, d])
     }
 }
 
 /// The smallest sphere of four points is that of the first three of them whose smallest sphere contains
 /// the fourth, and otherwise the sphere through all four.
-fn around_four(points: [Vec3; 4]) -> Sphere {
-    for left_out in 0..4 {
-        let [a, b, c] = [1, 2, 3].map(|step| points[(left_out + step) % 4]);
-        let sphere = Sphere::around_triangle(a, b, c);
-        let needed = sphere.center.distance_squared(points[left_out]);
+#[cold]
+fn around_four([a, b, c, d]: [Vec3; 4]) -> Sphere {
+    for (p, q, r, left_out) in [(b, c, d, a), (c, d, a, b), (d, a, b, c), (a, b, c, d)] {
+        let sphere = Sphere::around_triangle(p, q, r);
+        let needed = sphere.center.distance_squared(left_out);
         if needed <= sphere.radius * sphere.radius * QUAD_SLACK_SQUARED {
-            return widened(sphere.center, farthest_squared(sphere.center, points));
+            return widened(sphere.center, farthest_squared(sphere.center, a, b, c, d));
         }
     }
     // Without a circumsphere the points are flat to rounding; their mean is then as good a centre as any.
-    let center = match circumsphere(&points) {
+    let center = match circumsphere(&[a, b, c, d]) {
         Some(sphere) => sphere.center,
-        None => (points[0] + points[1] + points[2] + points[3]) * 0.25,
+        None => (a + b + c + d) * 0.25,
     };
-    widened(center, farthest_squared(center, points))
+    widened(center, farthest_squared(center, a, b, c, d))
 }
 
 #[inline]
-fn farthest_squared(center: Vec3, points: [Vec3; 4]) -> f32 {
-    let [a, b, c, d] = points.map(|point| center.distance_squared(point));
-    a.max(b).max(c.max(d))
+fn farthest_squared(center: Vec3, a: Vec3, b: Vec3, c: Vec3, d: Vec3) -> f32 {
+    let to = |point: Vec3| center.distance_squared(point);
+    larger(larger(to(a), to(b)), larger(to(c), to(d)))
+}
+
+/// Plain comparison: one instruction, where `f32::max` takes several to see to NaN.
+#[inline]
+fn larger(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
 }
 
 #[inline]

@@ -21,6 +21,9 @@ pub struct DescentStack {
 
 /// Calls `visit(leaf_a, leaf_b)` for every pair of leaves whose spheres overlap, each once, in an order that
 /// depends on the spheres alone. Returns how many pairs of spheres were tested.
+///
+/// With a wrapped tree, whose inner spheres contain the geometry below them but not the spheres, overlapping
+/// leaves are left out where an inner sphere already shows that their features are apart.
 pub fn descend_pair(
     mut a: impl SphereHierarchy,
     mut b: impl SphereHierarchy,

@@ -114,6 +114,6 @@ fn around_feature(feature: &Feature, positions: &[Vec3]) -> Sphere {
         Feature::Point(particle) => Sphere { center: at(particle), radius: 0.0 },
         Feature::Segment([a, b]) => Sphere::around_segment(at(a), at(b)),
         Feature::Triangle([a, b, c]) => Sphere::around_triangle(at(a), at(b), at(c)),
-        Feature::Quad(corners) => Sphere::around_quad(corners.map(at)),
+        Feature::Quad([a, b, c, d]) => Sphere::around_quad(at(a), at(b), at(c), at(d)),
     }
 }
