@@ -127,7 +127,7 @@ fn ordered_distance(a: &[Vec3], b: &[Vec3]) -> Distance {
 impl Distance {
     fn penetrating(contact: ContactFeatures, iterations: u32, converged: bool) -> Self {
         Self {
-            distance: -contact.depth,
+            distance: 0.0 - contact.depth, // and not −0 when they just touch
             normal: contact.normal,
             point_a: contact.point_a,
             point_b: contact.point_b,

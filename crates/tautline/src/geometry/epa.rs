@@ -53,8 +53,7 @@ struct Face {
     normal: DVec3,
     /// Height of the face's plane along the normal.
     offset: f64,
-    /// Whether the origin's projection falls on the face. On a convex hull that holds the origin it does so on
-    /// the nearest face, so slivers, whose normals are noise, stay out of the choice.
+    /// Whether it may still be the nearest one.
     is_candidate: bool,
 }
 
@@ -104,9 +103,15 @@ impl Epa {
             return Face { corners, normal: DVec3::ZERO, offset: f64::INFINITY, is_candidate: false };
         }
         let normal = area / length;
-        let limit = OUTSIDE * length;
-        let is_candidate = [q.cross(r), r.cross(p), p.cross(q)].iter().all(|part| part.dot(normal) >= limit);
-        Face { corners, normal, offset: normal.dot(p), is_candidate }
+        Face { corners, normal, offset: normal.dot(p), is_candidate: true }
+    }
+
+    /// Whether the origin's projection falls on the face. On a convex hull that holds the origin it does so on the
+    /// nearest face, so this keeps slivers, whose normals are noise, out of the choice.
+    fn is_under_origin(&self, face: &Face) -> bool {
+        let [p, q, r] = face.corners.map(|i| self.vertices[i as usize].point);
+        let limit = OUTSIDE * (q - p).cross(r - p).dot(face.normal);
+        [q.cross(r), r.cross(p), p.cross(q)].iter().all(|part| part.dot(face.normal) >= limit)
     }
 
     fn expand(&mut self, a: &impl Support, b: &impl Support, budget: u32) -> HitFace {
@@ -115,8 +120,12 @@ impl Epa {
         let mut iterations = 0;
         while iterations < budget {
             let Some(nearest) = self.nearest() else { break };
-            iterations += 1;
             let face = self.faces[nearest];
+            if !self.is_under_origin(&face) {
+                self.faces[nearest].is_candidate = false;
+                continue;
+            }
+            iterations += 1;
             let vertex = CsoVertex::support(a, b, face.normal);
             let height = face.normal.dot(vertex.point);
             reach_squared = reach_squared.max(vertex.point.length_squared());

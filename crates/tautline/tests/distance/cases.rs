@@ -36,7 +36,7 @@ impl Random {
 }
 
 /// Name and generator of each case.
-pub const CASES: [(&str, fn(&mut Random) -> Pair); 19] = [
+pub const CASES: [(&str, fn(&mut Random) -> Pair); 23] = [
     ("random hulls", |r| (hull(r, 1.0), moved(hull(r, 1.0), r.point(1.6)))),
     ("random hulls of 20", |r| (cloud(r, 20, 1.0), moved(cloud(r, 20, 1.0), r.point(1.5)))),
     ("boxes", |r| (turned(block(r), r.rotation()), moved(turned(block(r), r.rotation()), r.point(1.2)))),
@@ -56,12 +56,17 @@ pub const CASES: [(&str, fn(&mut Random) -> Pair); 19] = [
         (a.clone(), moved(a, r.point(1e-6)))
     }),
     ("contained", |r| (hull(r, 1.0), moved(scaled(hull(r, 1.0), 0.05), r.point(0.1)))),
-    ("flat, 1e-6 thick", |r| (plate(r), moved(plate(r), r.point(0.5)))),
-    ("flat stack", |r| {
-        let (a, b) = (plate(r), plate(r));
-        let up = r.between(-2e-6, 2e-6) * Vec3::Y;
-        (a, moved(b, up))
+    ("flat, 1e-6 thick", |r| {
+        let at = Vec3::new(r.between(-1.0, 1.0), r.between(-3e-6, 3e-6), r.between(-1.0, 1.0));
+        (plate(r), moved(plate(r), at))
     }),
+    ("flat, tilted", |r| {
+        (turned(plate(r), r.rotation()), moved(turned(plate(r), r.rotation()), r.point(0.5)))
+    }),
+    ("lattice points", |r| (lattice(r), lattice(r))),
+    ("needles", |r| (needle(r), moved(needle(r), r.point(0.1)))),
+    ("segment and solid", |r| (cloud(r, 2, 1.0), moved(solid(r), r.point(1.0)))),
+    ("point and solid", |r| (cloud(r, 1, 1.0), moved(solid(r), r.point(1.0)))),
     ("triangles", |r| (cloud(r, 3, 1.0), moved(cloud(r, 3, 1.0), r.point(0.5)))),
     ("coplanar triangles", |r| (flattened(cloud(r, 3, 1.0)), flattened(cloud(r, 3, 1.0)))),
     ("collinear", |r| (line(r), moved(line(r), r.point(0.5)))),
@@ -148,6 +153,18 @@ fn plate(r: &mut Random) -> Vec<Vec3> {
     let half = Vec3::new(r.between(0.2, 1.0), 0.5e-6, r.between(0.2, 1.0));
     let tilt = if r.index(2) == 0 { Quat::IDENTITY } else { Quat::from_rotation_y(r.between(0.0, 3.0)) };
     turned(block_of(half), tilt)
+}
+
+/// Points of a 4 × 4 × 4 lattice: full of faces with many corners, collinear triples and exact contact.
+fn lattice(r: &mut Random) -> Vec<Vec3> {
+    let at = Vec3::from_array([0; 3].map(|_| r.index(4) as f32));
+    let count = 4 + r.index(9);
+    (0..count).map(|_| (at + Vec3::from_array([0; 3].map(|_| r.index(4) as f32))) * 0.25).collect()
+}
+
+fn needle(r: &mut Random) -> Vec<Vec3> {
+    let half = Vec3::new(r.between(1e-5, 1e-3), r.between(1e-5, 1e-3), 1.0);
+    turned(block_of(half), r.rotation())
 }
 
 fn flattened(points: Vec<Vec3>) -> Vec<Vec3> {

@@ -64,3 +64,28 @@ fn agrees_with_brute_force() {
     }
     assert!(failed.is_empty(), "{failed:?}");
 }
+#[test]
+fn hunt() {
+    let n: usize = std::env::var("HUNT").ok().and_then(|s| s.parse().ok()).unwrap_or(1000);
+    for (case, (name, generate)) in CASES.into_iter().enumerate() {
+        let mut random = Random(1000 + case as u64);
+        let (mut bad, mut bp, mut it, mut err) = (0, 0.0f64, 0, 0.0f64);
+        for _ in 0..n {
+            let pair = generate(&mut random);
+            let f = distance(&pair.0, &pair.1).unwrap();
+            it = it.max(f.iterations);
+            let p = broken_promise(&pair, &f) / scale(&pair);
+            bp = bp.max(p);
+            if !f.converged || p > 1e-4 {
+                bad += 1;
+                let e =
+                    (f64::from(f.distance) - oracle::signed_distance(&pair.0, &pair.1)).abs() / scale(&pair);
+                err = err.max(e);
+                if bad <= 2 {
+                    println!("  {name} {e:e} {p:e} {f:?}");
+                }
+            }
+        }
+        println!("{name:22} promise {bp:10.1e} it {it} bad {bad} err of bad {err:e}");
+    }
+}
