@@ -1,0 +1,158 @@
+//! A solid partly filled with tetrahedra: what is placed, and the faces around what is still empty.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use glam::DVec3;
+
+use super::boxes::Aabb;
+use super::predicates::{Face, Tet, faces_of, reversed};
+
+/// Tetrahedra placed so far, and the closed surface around the rest.
+pub(super) struct Filling {
+    tets: Vec<Option<Tet>>,
+    /// Which tetrahedron has this outward face.
+    owner: BTreeMap<Face, usize>,
+    /// Outward faces of the empty part, canonical.
+    front: BTreeSet<Face>,
+}
+
+/// An empty part of the solid, or one that is emptied to be filled differently.
+#[derive(Clone)]
+pub(super) struct Cavity {
+    /// Outward faces, canonical.
+    pub(super) faces: BTreeSet<Face>,
+    /// Tetrahedra in it that must give way.
+    pub(super) tets: BTreeSet<usize>,
+}
+
+/// Adds a tetrahedron's faces to those around an empty part that it leaves.
+fn open(faces: &mut BTreeSet<Face>, tet: &Tet) {
+    for face in faces_of(tet) {
+        if !faces.remove(&reversed(face)) {
+            faces.insert(face);
+        }
+    }
+}
+
+/// Takes a tetrahedron's faces from those around an empty part that it enters.
+pub(super) fn close(faces: &mut BTreeSet<Face>, tet: &Tet) {
+    for face in faces_of(tet) {
+        if !faces.remove(&face) {
+            faces.insert(reversed(face));
+        }
+    }
+}
+
+impl Filling {
+    pub(super) fn new(surface: &[Face]) -> Filling {
+        Filling { tets: Vec::new(), owner: BTreeMap::new(), front: surface.iter().copied().collect() }
+    }
+
+    pub(super) fn front(&self) -> &BTreeSet<Face> {
+        &self.front
+    }
+
+    pub(super) fn place(&mut self, tet: Tet) {
+        close(&mut self.front, &tet);
+        self.owner.extend(faces_of(&tet).map(|f| (f, self.tets.len())));
+        self.tets.push(Some(tet));
+    }
+
+    /// Puts other tetrahedra in place of those in the cavity.
+    pub(super) fn replace(&mut self, cavity: &Cavity, with: Vec<Tet>) {
+        for &t in &cavity.tets {
+            if let Some(tet) = self.tets[t].take() {
+                open(&mut self.front, &tet);
+                faces_of(&tet).iter().for_each(|f| {
+                    self.owner.remove(f);
+                });
+            }
+        }
+        with.into_iter().for_each(|tet| self.place(tet));
+    }
+
+    /// The tetrahedra in the order of their placing.
+    pub(super) fn tetrahedra(&self) -> Vec<Tet> {
+        self.tets.iter().flatten().copied().collect()
+    }
+
+    /// Renumbers the vertices after one that is no longer used.
+    pub(super) fn forget_vertex(&mut self, vertex: u32) {
+        let renumber = |v: u32| if v > vertex { v - 1 } else { v };
+        self.owner = self.owner.iter().map(|(f, &t)| (f.map(renumber), t)).collect();
+        self.tets.iter_mut().flatten().for_each(|tet| *tet = tet.map(renumber));
+    }
+
+    /// The cavity that all tetrahedra around a vertex leave.
+    pub(super) fn star(&self, vertex: u32) -> Cavity {
+        let mut cavity = Cavity { faces: BTreeSet::new(), tets: BTreeSet::new() };
+        for (t, tet) in self.tets.iter().enumerate() {
+            if let Some(tet) = tet.filter(|tet| tet.contains(&vertex)) {
+                open(&mut cavity.faces, &tet);
+                cavity.tets.insert(t);
+            }
+        }
+        cavity
+    }
+
+    /// The cavity with the tetrahedra beyond its faces added to it, as far as there are any. Those that
+    /// also border on another empty part stay.
+    pub(super) fn widened(&self, cavity: &Cavity) -> Cavity {
+        let mut wide = cavity.clone();
+        let beyond = cavity.faces.iter().filter_map(|&f| self.owner.get(&reversed(f)));
+        for &t in beyond {
+            let Some(tet) = self.tets[t] else { continue };
+            let borders_other = |f: Face| self.front.contains(&f) && !cavity.faces.contains(&f);
+            if !faces_of(&tet).iter().any(|&f| borders_other(reversed(f))) && wide.tets.insert(t) {
+                open(&mut wide.faces, &tet);
+            }
+        }
+        wide
+    }
+
+    /// The separate empty parts. Parts that lie within another's box without enclosing a volume of their
+    /// own are voids in it and stay together with it.
+    pub(super) fn cavities(&self, points: &[DVec3]) -> Vec<Cavity> {
+        let mut parts = components(&self.front);
+        let volume = |faces: &BTreeSet<Face>| -> f64 {
+            let corners = faces.iter().map(|f| f.map(|v| points[v as usize]));
+            corners.map(|[a, b, c]| a.cross(b).dot(c)).sum()
+        };
+        let bounds = |faces: &BTreeSet<Face>| Aabb::around(points, &vertices(faces));
+        let (mut solid, voids): (Vec<_>, Vec<_>) = parts.drain(..).partition(|faces| volume(faces) > 0.0);
+        for void in voids {
+            let around = bounds(&void);
+            let size = |faces: &BTreeSet<Face>| (bounds(faces).max - bounds(faces).min).length();
+            let containing = solid.iter_mut().filter(|faces| bounds(faces).contains(&around));
+            if let Some(faces) = containing.min_by(|a, b| size(a).total_cmp(&size(b))) {
+                faces.extend(void);
+            }
+        }
+        solid.into_iter().map(|faces| Cavity { faces, tets: BTreeSet::new() }).collect()
+    }
+}
+
+/// The corners of some faces, sorted.
+pub(super) fn vertices(faces: &BTreeSet<Face>) -> Vec<u32> {
+    let corners: BTreeSet<u32> = faces.iter().flatten().copied().collect();
+    corners.into_iter().collect()
+}
+
+/// Faces that hang together by corners.
+fn components(faces: &BTreeSet<Face>) -> Vec<BTreeSet<Face>> {
+    let mut around: BTreeMap<u32, Vec<Face>> = BTreeMap::new();
+    for face in faces {
+        face.iter().for_each(|&v| around.entry(v).or_default().push(*face));
+    }
+    let mut parts = Vec::new();
+    while let Some((_, seed)) = around.pop_first() {
+        let (mut part, mut stack) = (BTreeSet::new(), seed);
+        while let Some(face) = stack.pop() {
+            if part.insert(face) {
+                stack.extend(face.iter().filter_map(|v| around.remove(v)).flatten());
+            }
+        }
+        parts.push(part);
+    }
+    parts
+}
