@@ -6,13 +6,11 @@ mod half_edge;
 mod hull;
 mod mass_properties;
 pub mod primitives;
+mod tetrahedra;
 mod tri_mesh;
 
 pub use half_edge::HalfEdgeMesh;
 pub use hull::{ConvexHull, convex_hull};
 pub use mass_properties::MassProperties;
-mod tetrahedra;
-mod tri_mesh;
-
 pub use tetrahedra::{Tetrahedra, tetrahedralise};
 pub use tri_mesh::TriMesh;

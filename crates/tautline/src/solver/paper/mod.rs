@@ -3,5 +3,5 @@
 mod relax;
 mod separate;
 
-pub(crate) use relax::{Counts, relax_bodies};
+pub(crate) use relax::relax_bodies;
 pub(crate) use separate::{Moved, separate};
