@@ -252,6 +252,8 @@ fn every_defect_is_named_with_its_place() {
     let [a, b, c] = triangles[1];
     triangles.push([c, b, a]);
     assert_eq!(defect(6, &triangles), MeshDefect::DuplicateTriangle { first: 1, second: 8 });
+    triangles.push(triangles[0]);
+    assert_eq!(defect(6, &triangles), MeshDefect::DuplicateTriangle { first: 1, second: 8 });
 
     // The later of two neighbours is the one named.
     let mut triangles = octahedron();

@@ -20,6 +20,17 @@ use crate::{Error, MeshDefect};
 /// Vertices, faces, half-edges and edges are plain numbers counting from 0; faces are in the order given, edges
 /// in ascending order of their ends. An accessor given a number outside its range panics as a slice does.
 ///
+/// ```
+/// use tautline::mesh::{HalfEdgeMesh, primitives};
+///
+/// let cube = HalfEdgeMesh::from_mesh(&primitives::cube(1.0)?)?;
+/// assert_eq!((cube.vertex_count(), cube.edge_count(), cube.face_count()), (8, 18, 12));
+/// for neighbor in cube.one_ring(0) {
+///     assert!(cube.edge_between(0, neighbor).is_some());
+/// }
+/// # Ok::<(), tautline::Error>(())
+/// ```
+///
 /// Serialised as its triangles and built anew from them, so that bytes from anywhere either give a mesh that
 /// holds every invariant or an error.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
