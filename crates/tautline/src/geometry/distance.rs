@@ -59,7 +59,8 @@ pub struct Distance {
     /// Iterations taken, at most 64.
     pub iterations: u32,
     /// Whether the answer is certain within rounding. If not, a gap is an upper bound of the true one, and so is a
-    /// depth: the normal still separates, but a shorter way may exist.
+    /// depth: the normal still separates, but a shorter way may exist, and the witness points do not quite realise
+    /// it. That takes hundreds of points about equally near, such as two fine balls deep in each other.
     pub converged: bool,
 }
 
