@@ -54,6 +54,13 @@ impl Simplex {
         &self.weights[..self.count]
     }
 
+    /// The first three vertices and their weights; where there are fewer, the last is repeated with weight 0.
+    pub(crate) fn triangle(&self) -> ([CsoVertex; 3], [f64; 3]) {
+        let last = self.count.saturating_sub(1);
+        let vertices = [0, 1, 2].map(|i| self.vertices[last.min(i)]);
+        (vertices, [0, 1, 2].map(|i| if i < self.count { self.weights[i] } else { 0.0 }))
+    }
+
     /// Adds a vertex. A simplex of four is full and stays as it is; GJK reduces it first.
     pub(crate) fn push(&mut self, vertex: CsoVertex) {
         if let Some(slot) = self.vertices.get_mut(self.count) {
@@ -117,7 +124,8 @@ impl Simplex {
         self.count = kept;
     }
 
-    fn closest_point(&self) -> DVec3 {
+    /// The weighted sum of the vertices, in m: after `reduce`, the point closest to the origin.
+    pub(crate) fn closest_point(&self) -> DVec3 {
         let [p, q, r, _] = self.vertices.map(|v| v.point);
         if self.count == 3 {
             // The same point as the weighted sum, but at right angles to the face where that is near zero.
