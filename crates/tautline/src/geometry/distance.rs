@@ -14,7 +14,7 @@ use crate::Error;
 pub struct Contact {
     /// The touching features, or `None` if the sets are apart.
     pub features: Option<ContactFeatures>,
-    /// Pairs of support points computed, by GJK and EPA.
+    /// Iterations of GJK and EPA, at most 64.
     pub iterations: u32,
     /// Whether the answer is certain within rounding; see [`Distance::converged`].
     pub converged: bool,

@@ -34,7 +34,7 @@ impl CsoVertex {
     }
 }
 
-/// Up to four vertices of A ⊖ B. After [`Simplex::reduce`] the weights are the barycentric coordinates of the
+/// Up to four vertices of A ⊖ B. From GJK, the weights are the barycentric coordinates of the
 /// point of their hull closest to the origin, all above zero.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Simplex {

@@ -133,6 +133,26 @@ fn the_cached_axis_settles_the_next_frame_at_once() {
 }
 
 #[test]
+fn a_stale_or_broken_axis_changes_nothing() {
+    let mut random = Random(8);
+    let mut epa = Epa::default();
+    for _ in 0..500 {
+        let (a, b) = (solid(&mut random), moved(solid(&mut random), random.point(1.0)));
+        let depth = |axis: Vec3, epa: &mut Epa| {
+            let mut axis = axis;
+            contact(&Points(&a), &Points(&b), &mut axis, epa).features.map(|features| features.depth)
+        };
+        let expected = depth(Vec3::ZERO, &mut epa);
+        for axis in [Vec3::NAN, Vec3::INFINITY, random.point(1e38), random.point(1e-40), random.point(1.0)] {
+            match (depth(axis, &mut epa), expected) {
+                (Some(found), Some(expected)) => assert!((found - expected).abs() < 1e-6, "{axis}"),
+                (found, expected) => assert_eq!(found, expected, "{axis}"),
+            }
+        }
+    }
+}
+
+#[test]
 fn coordinates_of_any_size_give_finite_answers() {
     let sizes = [f32::MAX, 1e30, 1.0, 1e-30, f32::MIN_POSITIVE, 1e-45, 0.0];
     let mut random = Random(9);
