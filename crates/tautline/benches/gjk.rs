@@ -1,5 +1,5 @@
 //! What a pair of convex bodies costs in a step: `cargo bench -p tautline --bench gjk`. Every figure is the time
-//! of one pair; each case goes round many pairs, so that branch prediction cannot learn them by heart.
+//! of one pair; a sample goes round many pairs, so that branch prediction cannot learn them by heart.
 
 use divan::{Bencher, black_box};
 use tautline::geometry::distance::{contact, distance};
@@ -16,7 +16,7 @@ fn main() {
     divan::main();
 }
 
-#[divan::bench(args = SHAPES)]
+#[divan::bench(args = SHAPES, sample_size = PAIRS as u32)]
 fn separated_cached(bencher: Bencher, shape: &Shape) {
     let mut pairs = shape.pairs(2.1, 2.5).into_iter().map(|pair| (pair, Vec3::ZERO)).collect::<Vec<_>>();
     for ((a, b), axis) in &mut pairs {
@@ -30,7 +30,7 @@ fn separated_cached(bencher: Bencher, shape: &Shape) {
     });
 }
 
-#[divan::bench(args = SHAPES)]
+#[divan::bench(args = SHAPES, sample_size = PAIRS as u32)]
 fn separated_cold(bencher: Bencher, shape: &Shape) {
     let pairs = shape.pairs(2.1, 2.5);
     let mut i = 0;
@@ -42,7 +42,7 @@ fn separated_cold(bencher: Bencher, shape: &Shape) {
     });
 }
 
-#[divan::bench(args = SHAPES)]
+#[divan::bench(args = SHAPES, sample_size = PAIRS as u32)]
 fn intersecting_cached(bencher: Bencher, shape: &Shape) {
     let mut pairs = shape.pairs(1.3, 1.5).into_iter().map(|pair| (pair, Vec3::ZERO)).collect::<Vec<_>>();
     let mut epa = Epa::default();
@@ -54,7 +54,7 @@ fn intersecting_cached(bencher: Bencher, shape: &Shape) {
     });
 }
 
-#[divan::bench(args = SHAPES)]
+#[divan::bench(args = SHAPES, sample_size = PAIRS as u32)]
 fn intersecting_cold(bencher: Bencher, shape: &Shape) {
     let pairs = shape.pairs(1.3, 1.5);
     let mut epa = Epa::default();
@@ -67,7 +67,7 @@ fn intersecting_cold(bencher: Bencher, shape: &Shape) {
     });
 }
 
-#[divan::bench(args = SHAPES)]
+#[divan::bench(args = SHAPES, sample_size = PAIRS as u32)]
 fn distance_query(bencher: Bencher, shape: &Shape) {
     let pairs = shape.pairs(1.0, 3.0);
     let mut i = 0;
@@ -77,7 +77,7 @@ fn distance_query(bencher: Bencher, shape: &Shape) {
     });
 }
 
-#[divan::bench(args = SHAPES)]
+#[divan::bench(args = SHAPES, sample_size = PAIRS as u32)]
 fn support(bencher: Bencher, shape: &Shape) {
     let pairs = shape.pairs(2.1, 2.5);
     let mut i = 0;

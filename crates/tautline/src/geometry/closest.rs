@@ -114,3 +114,66 @@ fn corners(positions: &[Vec3], &[a, b, c]: &[u32; 3]) -> Option<[DVec3; 3]> {
     let corner = |index: u32| positions.get(index as usize).map(|p| p.as_dvec3());
     Some([corner(a)?, corner(b)?, corner(c)?])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Coordinates on a lattice make parallel, collinear and coincident corners common.
+    fn point() -> impl Strategy<Value = DVec3> {
+        let lattice =
+            prop::array::uniform3(-3..=3).prop_map(|c: [i32; 3]| DVec3::from_array(c.map(f64::from)));
+        let anywhere = prop::array::uniform3(-3.0..3.0).prop_map(DVec3::from_array);
+        prop_oneof![lattice, anywhere]
+    }
+
+    fn sum<const N: usize>(weights: [f64; N], corners: [DVec3; N]) -> DVec3 {
+        assert!(weights.iter().all(|&w| w >= 0.0) && (weights.iter().sum::<f64>() - 1.0).abs() < 1e-9);
+        weights.into_iter().zip(corners).map(|(weight, corner)| corner * weight).sum()
+    }
+
+    /// A point of a convex hull is the closest to `point` if and only if no corner lies further towards it.
+    fn is_closest(found: DVec3, point: DVec3, corners: &[DVec3]) -> bool {
+        corners.iter().all(|&corner| (point - found).dot(corner - found) < 1e-9)
+    }
+
+    proptest! {
+        #[test]
+        fn no_corner_is_further_towards_the_point(p in point(), corners in prop::array::uniform3(point())) {
+            let [a, b, _] = corners;
+            prop_assert!(is_closest(sum(closest_on_segment(p, [a, b]), [a, b]), p, &[a, b]));
+            prop_assert!(is_closest(sum(closest_on_triangle(p, corners), corners), p, &corners));
+        }
+
+        #[test]
+        fn each_segment_is_closest_to_the_others_point(
+            a in prop::array::uniform2(point()),
+            b in prop::array::uniform2(point()),
+        ) {
+            let [on_a, on_b] = closest_between_segments(a, b);
+            let (p, q) = (sum(on_a, a), sum(on_b, b));
+            prop_assert!(is_closest(p, q, &a) && is_closest(q, p, &b), "{} {}", p, q);
+        }
+    }
+
+    #[test]
+    fn parallel_segments_meet_in_the_middle_of_their_overlap() {
+        let a = [DVec3::ZERO, DVec3::X * 4.0];
+        let b = [DVec3::new(6.0, 1.0, 0.0), DVec3::new(2.0, 1.0, 0.0)];
+        assert_eq!(closest_between_segments(a, b), [[0.25, 0.75], [0.25, 0.75]]);
+    }
+
+    #[test]
+    fn depth_is_measured_from_the_nearest_face() {
+        let positions = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z];
+        let triangles = [[0, 2, 1], [0, 3, 2], [0, 1, 3], [1, 2, 3]];
+        let depth = |x, y, z| depth_in_convex(DVec3::new(x, y, z), &positions, &triangles);
+        let nearest = depth(0.1, 0.2, 0.3).unwrap();
+        assert_eq!((nearest.face, nearest.normal), (1, DVec3::NEG_X));
+        assert!((nearest.depth - 0.1).abs() < 1e-12);
+        assert_eq!(depth(0.25, 0.25, 0.0).unwrap().depth, 0.0);
+        assert_eq!(depth(0.5, 0.5, 0.5), None);
+        assert_eq!(depth_in_convex(DVec3::ZERO, &positions, &[]), None);
+    }
+}

@@ -6,7 +6,6 @@ use glam::{DVec3, Vec3};
 use super::epa::Epa;
 use super::feature::{ContactFeatures, FeaturePoint};
 use super::gjk::{self, Gjk, MAX_ITERATIONS, Proximity};
-use super::simplex::CsoVertex;
 use super::support::{Points, Support};
 use crate::Error;
 
@@ -15,7 +14,7 @@ use crate::Error;
 pub struct Contact {
     /// The touching features, or `None` if the sets are apart.
     pub features: Option<ContactFeatures>,
-    /// Pairs of support points computed, by GJK and EPA.
+    /// Iterations of GJK and EPA, at most 64.
     pub iterations: u32,
     /// Whether the answer is certain within rounding; see [`Distance::converged`].
     pub converged: bool,
@@ -59,7 +58,8 @@ pub struct Distance {
     /// Iterations taken, at most 64.
     pub iterations: u32,
     /// Whether the answer is certain within rounding. If not, a gap is an upper bound of the true one, and so is a
-    /// depth: the normal still separates, but a shorter way may exist.
+    /// depth: the normal still separates, but a shorter way may exist, and the witness points do not quite realise
+    /// it. That takes hundreds of points about equally near, such as two fine balls deep in each other.
     pub converged: bool,
 }
 
@@ -139,22 +139,17 @@ impl Distance {
     }
 
     fn separated(a: &impl Support, b: &impl Support, gjk: &Gjk) -> Self {
-        let mut vertices = [gjk.simplex.vertices().last().copied().unwrap_or_default(); 3];
-        let mut weights = [0.0; 3];
-        for (i, (vertex, weight)) in
-            gjk.simplex.vertices().iter().zip(gjk.simplex.weights()).take(3).enumerate()
-        {
-            (vertices[i], weights[i]) = (*vertex, *weight);
-        }
-        let gap = gjk.separation.length();
-        let sum = |point: &dyn Fn(&CsoVertex) -> DVec3| -> Vec3 {
-            vertices.iter().zip(weights).map(|(v, weight)| point(v) * weight).sum::<DVec3>().as_vec3()
-        };
+        let (vertices, weights) = gjk.simplex.triangle();
+        let weighted =
+            |points: [DVec3; 3]| points[0] * weights[0] + points[1] * weights[1] + points[2] * weights[2];
+        // From B to A.
+        let separation = gjk.simplex.closest_point();
+        let gap = separation.length();
         Self {
             distance: (gap as f32).min(f32::MAX),
-            normal: (-gjk.separation / gap).as_vec3(),
-            point_a: sum(&|v| a.point(v.a)),
-            point_b: sum(&|v| b.point(v.b)),
+            normal: (-separation / gap).as_vec3(),
+            point_a: weighted(vertices.map(|v| a.point(v.a))).as_vec3(),
+            point_b: weighted(vertices.map(|v| b.point(v.b))).as_vec3(),
             feature_a: FeaturePoint::new(vertices.map(|v| v.a), weights),
             feature_b: FeaturePoint::new(vertices.map(|v| v.b), weights),
             iterations: gjk.iterations,

@@ -31,7 +31,7 @@ pub struct HitFace {
     pub normal: DVec3,
     /// Distance from the origin to the face, in m. 0 where A ⊖ B is flat: flat sets touch, they do not penetrate.
     pub depth: f64,
-    /// Support points computed.
+    /// Faces tried, each with a pair of support points.
     pub iterations: u32,
     /// Whether no other face is nearer, within rounding. If not, `normal` and `depth` still separate the sets,
     /// but a shorter way may exist.
@@ -59,8 +59,8 @@ struct Face {
 
 impl Epa {
     /// Expands `simplex`, in which GJK left the origin, to the hit face. `axis` (from A to B, zero if
-    /// unknown) only settles which way the normal of flat sets points. `budget` is the number of support points
-    /// that may be computed, at most [`MAX_ITERATIONS`].
+    /// unknown) only settles which way the normal of flat sets points. `budget` is the number of faces that may
+    /// be tried, at most [`MAX_ITERATIONS`].
     pub fn hit_face(
         &mut self,
         a: &impl Support,

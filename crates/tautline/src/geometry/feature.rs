@@ -73,7 +73,7 @@ pub struct ContactFeatures {
     pub point_b: Vec3,
     /// Unit, from A to B.
     pub normal: Vec3,
-    /// Penetration depth, in m; 0 when just touching.
+    /// Penetration depth, in m; 0 when just touching, where rounding may leave a trace of either sign.
     pub depth: f32,
 }
 

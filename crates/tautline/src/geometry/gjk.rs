@@ -35,12 +35,9 @@ pub enum Proximity {
 pub struct Gjk {
     /// How the sets lie.
     pub proximity: Proximity,
-    /// Intersecting: a simplex that holds the origin, to be expanded by EPA. Separated, from [`closest`]: the
-    /// vertices and weights of the closest point.
+    /// Intersecting: a simplex that holds the origin, to be expanded by EPA. Otherwise, from [`closest`]: the
+    /// vertices and weights of the point of A ⊖ B closest to the origin.
     pub simplex: Simplex,
-    /// The point of A ⊖ B closest to the origin, from B to A, in m; zero if they intersect. An upper bound unless
-    /// the query was [`closest`].
-    pub separation: DVec3,
     /// Pairs of support points computed.
     pub iterations: u32,
     /// Whether the answer is certain within rounding.
@@ -54,7 +51,9 @@ pub struct Gjk {
 pub fn intersect(a: &impl Support, b: &impl Support, axis: &mut Vec3) -> Gjk {
     let mut walk = Walk::new(*axis);
     walk.run(a, b, true);
-    walk.finish(axis)
+    let found = walk.finish(axis);
+    // One separating axis is proof enough, however far the closest point is.
+    Gjk { converged: found.converged || found.proximity == Proximity::Separated, ..found }
 }
 
 /// The closest points of A and B, or the fact that they intersect. `axis` is as for [`intersect`].
@@ -66,15 +65,16 @@ pub fn closest(a: &impl Support, b: &impl Support, axis: &mut Vec3) -> Gjk {
 
 struct Walk {
     simplex: Simplex,
-    /// Where the next support point is sought, from A to B: minus the closest point so far.
+    /// Where the next support point is sought, from A to B: minus v, the closest point so far.
     direction: DVec3,
-    /// |closest point|² so far.
+    /// |v|²; infinite before the first vertex.
     distance_squared: f64,
+    /// |v| times how much nearer the true closest point can be: |v|² − min v · x over A ⊖ B.
+    gap: f64,
     /// The largest |vertex|² seen: the scale of rounding.
     reach_squared: f64,
     proximity: Proximity,
     iterations: u32,
-    converged: bool,
 }
 
 impl Walk {
@@ -85,10 +85,10 @@ impl Walk {
             simplex: Simplex::default(),
             direction: if is_usable { axis } else { DVec3::X },
             distance_squared: f64::INFINITY,
+            gap: f64::INFINITY,
             reach_squared: 0.0,
             proximity: Proximity::Unresolved,
             iterations: 0,
-            converged: false,
         }
     }
 
@@ -101,43 +101,35 @@ impl Walk {
                 // All of A ⊖ B lies below the plane through the origin: the direction separates.
                 self.proximity = Proximity::Separated;
                 if only_whether {
-                    self.converged = true;
                     return;
                 }
             }
-            if self.is_closest(&vertex, height) || !self.advance(vertex) {
+            self.gap = self.distance_squared + height;
+            self.reach_squared = self.reach_squared.max(vertex.point.length_squared());
+            if self.is_closest(&vertex) || !self.advance(vertex) {
                 return;
             }
         }
     }
 
-    /// |v|² + height bounds how much nearer the true closest point can be, times |v|. A vertex that comes back
-    /// promises no progress whatever rounding says.
-    fn is_closest(&mut self, vertex: &CsoVertex, height: f64) -> bool {
-        if self.simplex.vertices().is_empty() {
-            return false;
-        }
-        let gap = self.distance_squared + height;
-        self.reach_squared = self.reach_squared.max(vertex.point.length_squared());
-        self.converged =
-            gap * gap <= ACCEPTED_GAP * ACCEPTED_GAP * self.distance_squared * self.reach_squared;
-        gap <= RELATIVE_GAP * self.distance_squared || self.simplex.contains(vertex)
+    /// A vertex that comes back promises no progress, whatever rounding says.
+    fn is_closest(&self, vertex: &CsoVertex) -> bool {
+        let has_started = self.distance_squared.is_finite();
+        has_started && (self.gap <= RELATIVE_GAP * self.distance_squared || self.simplex.contains(vertex))
     }
 
     /// Takes the vertex in; false when the walk is over.
     fn advance(&mut self, vertex: CsoVertex) -> bool {
         let before = self.simplex;
-        self.reach_squared = self.reach_squared.max(vertex.point.length_squared());
         self.simplex.push(vertex);
-        let Some(point) = self.simplex.reduce() else {
-            return self.intersecting();
-        };
+        let point = self.simplex.reduce().unwrap_or(DVec3::ZERO);
         let distance_squared = point.length_squared();
         if distance_squared <= TOUCHING * TOUCHING * self.reach_squared {
-            return self.intersecting();
+            self.proximity = Proximity::Intersecting;
+            return false;
         }
         if distance_squared >= self.distance_squared {
-            // Rounding: the simplex before was as good. `converged` says how good that is.
+            // Rounding: the simplex before was as good, and the gap says how good that is.
             self.simplex = before;
             return false;
         }
@@ -146,29 +138,23 @@ impl Walk {
         true
     }
 
-    fn intersecting(&mut self) -> bool {
-        self.proximity = Proximity::Intersecting;
-        self.converged = true;
-        self.distance_squared = 0.0;
-        false
+    fn is_certain(&self) -> bool {
+        let accepted_squared = ACCEPTED_GAP * ACCEPTED_GAP * self.reach_squared;
+        self.proximity == Proximity::Intersecting
+            || self.distance_squared <= accepted_squared
+            || self.gap * self.gap <= accepted_squared * self.distance_squared
     }
 
-    fn finish(mut self, axis: &mut Vec3) -> Gjk {
-        if self.proximity == Proximity::Unresolved && self.converged {
+    fn finish(self, axis: &mut Vec3) -> Gjk {
+        let converged = self.is_certain();
+        let proximity = match self.proximity {
             // The origin is as near as rounding can tell.
-            self.intersecting();
-        }
-        if self.proximity == Proximity::Separated {
+            Proximity::Unresolved if converged => Proximity::Intersecting,
+            proximity => proximity,
+        };
+        if proximity == Proximity::Separated {
             *axis = (self.direction / self.direction.length()).as_vec3();
         }
-        let separation =
-            if self.proximity == Proximity::Intersecting { DVec3::ZERO } else { -self.direction };
-        Gjk {
-            proximity: self.proximity,
-            simplex: self.simplex,
-            separation,
-            iterations: self.iterations,
-            converged: self.converged,
-        }
+        Gjk { proximity, simplex: self.simplex, iterations: self.iterations, converged }
     }
 }

@@ -34,7 +34,7 @@ impl CsoVertex {
     }
 }
 
-/// Up to four vertices of A ⊖ B. After [`Simplex::reduce`] the weights are the barycentric coordinates of the
+/// Up to four vertices of A ⊖ B. From GJK, the weights are the barycentric coordinates of the
 /// point of their hull closest to the origin, all above zero.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Simplex {
@@ -52,6 +52,13 @@ impl Simplex {
     /// The barycentric weights, one for each vertex. They mean nothing where the origin is enclosed.
     pub fn weights(&self) -> &[f64] {
         &self.weights[..self.count]
+    }
+
+    /// The first three vertices and their weights; where there are fewer, the last is repeated with weight 0.
+    pub(crate) fn triangle(&self) -> ([CsoVertex; 3], [f64; 3]) {
+        let last = self.count.saturating_sub(1);
+        let vertices = [0, 1, 2].map(|i| self.vertices[last.min(i)]);
+        (vertices, [0, 1, 2].map(|i| if i < self.count { self.weights[i] } else { 0.0 }))
     }
 
     /// Adds a vertex. A simplex of four is full and stays as it is; GJK reduces it first.
@@ -117,7 +124,8 @@ impl Simplex {
         self.count = kept;
     }
 
-    fn closest_point(&self) -> DVec3 {
+    /// The weighted sum of the vertices, in m: after `reduce`, the point closest to the origin.
+    pub(crate) fn closest_point(&self) -> DVec3 {
         let [p, q, r, _] = self.vertices.map(|v| v.point);
         if self.count == 3 {
             // The same point as the weighted sum, but at right angles to the face where that is near zero.

@@ -3,13 +3,14 @@
 use tautline::geometry::distance::distance;
 use tautline::{Quat, Vec3};
 
-pub type Pair = (Vec<Vec3>, Vec<Vec3>);
+pub(crate) type Pair = (Vec<Vec3>, Vec<Vec3>);
+type Case = (&'static str, fn(&mut Random) -> Pair);
 
 /// SplitMix64: the same pairs on every machine.
-pub struct Random(pub u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
-    pub fn bits(&mut self) -> u64 {
+    pub(crate) fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -17,26 +18,26 @@ impl Random {
     }
 
     /// Uniform in [low, high).
-    pub fn between(&mut self, low: f32, high: f32) -> f32 {
+    pub(crate) fn between(&mut self, low: f32, high: f32) -> f32 {
         low + (high - low) * ((self.bits() >> 40) as f32 / (1u64 << 24) as f32)
     }
 
-    pub fn index(&mut self, count: usize) -> usize {
+    pub(crate) fn index(&mut self, count: usize) -> usize {
         (self.bits() % count as u64) as usize
     }
 
-    pub fn point(&mut self, reach: f32) -> Vec3 {
+    pub(crate) fn point(&mut self, reach: f32) -> Vec3 {
         Vec3::from_array([0; 3].map(|_| self.between(-reach, reach)))
     }
 
-    pub fn rotation(&mut self) -> Quat {
+    pub(crate) fn rotation(&mut self) -> Quat {
         let [x, y, z, w] = [0; 4].map(|_| self.between(-1.0, 1.0));
         Quat::from_xyzw(x, y, z, w + 1e-3).normalize()
     }
 }
 
 /// Name and generator of each case.
-pub const CASES: [(&str, fn(&mut Random) -> Pair); 23] = [
+pub(crate) const CASES: [Case; 23] = [
     ("random hulls", |r| (hull(r, 1.0), moved(hull(r, 1.0), r.point(1.6)))),
     ("random hulls of 20", |r| (cloud(r, 20, 1.0), moved(cloud(r, 20, 1.0), r.point(1.5)))),
     ("boxes", |r| (turned(block(r), r.rotation()), moved(turned(block(r), r.rotation()), r.point(1.2)))),
@@ -83,7 +84,7 @@ pub const CASES: [(&str, fn(&mut Random) -> Pair); 23] = [
 
 const FAR: Vec3 = Vec3::new(700.0, -500.0, 600.0);
 
-pub fn icosahedron() -> Vec<Vec3> {
+pub(crate) fn icosahedron() -> Vec<Vec3> {
     let (s, l) = (0.525_731_1, 0.850_650_8);
     let mut points = Vec::new();
     for (i, j) in [(s, l), (-s, l), (s, -l), (-s, -l)] {
@@ -92,16 +93,16 @@ pub fn icosahedron() -> Vec<Vec3> {
     points
 }
 
-pub fn block_of(half: Vec3) -> Vec<Vec3> {
+pub(crate) fn block_of(half: Vec3) -> Vec<Vec3> {
     let sign = |i: usize, bit: usize| if i >> bit & 1 == 0 { -1.0 } else { 1.0 };
     (0..8).map(|i| half * Vec3::new(sign(i, 0), sign(i, 1), sign(i, 2))).collect()
 }
 
-pub fn moved(points: Vec<Vec3>, by: Vec3) -> Vec<Vec3> {
+pub(crate) fn moved(points: Vec<Vec3>, by: Vec3) -> Vec<Vec3> {
     points.into_iter().map(|p| p + by).collect()
 }
 
-pub fn turned(points: Vec<Vec3>, rotation: Quat) -> Vec<Vec3> {
+pub(crate) fn turned(points: Vec<Vec3>, rotation: Quat) -> Vec<Vec3> {
     points.into_iter().map(|p| rotation * p).collect()
 }
 
@@ -130,7 +131,7 @@ fn grid_block(r: &mut Random) -> Vec<Vec3> {
 }
 
 /// A random hull, a turned box, a box or a turned icosahedron.
-pub fn solid(r: &mut Random) -> Vec<Vec3> {
+pub(crate) fn solid(r: &mut Random) -> Vec<Vec3> {
     match r.index(4) {
         0 => hull(r, 1.0),
         1 => turned(block(r), r.rotation()),

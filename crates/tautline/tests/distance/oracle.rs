@@ -4,7 +4,7 @@
 use tautline::{DVec3, Vec3};
 
 /// The signed distance, in f64.
-pub fn signed_distance(a: &[Vec3], b: &[Vec3]) -> f64 {
+pub(crate) fn signed_distance(a: &[Vec3], b: &[Vec3]) -> f64 {
     let (a, b) = (
         a.iter().map(|p| p.as_dvec3()).collect::<Vec<_>>(),
         b.iter().map(|p| p.as_dvec3()).collect::<Vec<_>>(),
@@ -43,7 +43,7 @@ pub fn signed_distance(a: &[Vec3], b: &[Vec3]) -> f64 {
 }
 
 /// How far B lies beyond A along a unit axis.
-pub fn separation(a: &[DVec3], b: &[DVec3], axis: DVec3) -> f64 {
+pub(crate) fn separation(a: &[DVec3], b: &[DVec3], axis: DVec3) -> f64 {
     let highest = a.iter().map(|p| p.dot(axis)).fold(f64::NEG_INFINITY, f64::max);
     let lowest = b.iter().map(|p| p.dot(axis)).fold(f64::INFINITY, f64::min);
     lowest - highest
