@@ -14,6 +14,8 @@ use std::sync::Arc;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
+use crate::error::Error;
+
 pub use cloth::{Cloth, Corner};
 pub use half_space::HalfSpace;
 pub use rope::Rope;
@@ -125,6 +127,28 @@ impl Body {
     /// The time its displacements took, in s: d divided by it is the velocity.
     pub(crate) fn displacement_time(&self) -> f32 {
         if self.previous_step > 0.0 { self.previous_step } else { 1.0 }
+    }
+
+    /// Checks a body from untrusted bytes, whose particles should begin at `start`.
+    pub(crate) fn validate(&self, start: usize) -> Result<(), Error> {
+        let count = self.particles.len();
+        match &self.shape {
+            Shape::Truss { .. } => {}
+            Shape::Deformable(deformable) => deformable.validate(count)?,
+            Shape::HalfSpace(wall) => wall.validated().map(|_| ())?,
+        }
+        let size_fits = match &self.shape {
+            Shape::Truss { truss } => truss.rest_positions().len() == count && count > 0,
+            Shape::Deformable(_) => count > 0,
+            Shape::HalfSpace(_) => count == 0 && self.fixed,
+        };
+        let numbers = [self.friction, self.previous_step, self.rest.still_for];
+        let sound = size_fits
+            && self.particles.start == start
+            && self.particles.end >= start
+            && numbers.iter().all(|number| (0.0..=f32::MAX).contains(number))
+            && self.rest.reference.iter().all(|point| point.is_finite());
+        if sound { Ok(()) } else { Err(Error::Snapshot("a body is inconsistent".into())) }
     }
 
     pub(crate) fn wake(&mut self) {

@@ -35,6 +35,12 @@ impl PairCache {
         }
     }
 
+    pub(crate) fn is_valid(&self, body_count: usize) -> bool {
+        self.pairs
+            .iter()
+            .all(|pair| pair.a < pair.b && (pair.b as usize) < body_count && pair.axis.is_finite())
+    }
+
     /// Forgets a body; those behind it move down by one.
     pub(crate) fn remove_body(&mut self, body: u32) {
         self.pairs.retain(|pair| pair.a != body && pair.b != body);

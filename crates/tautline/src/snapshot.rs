@@ -1,0 +1,123 @@
+//! A world as bytes, to be restored anywhere.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::body::{Body, Shape, Truss};
+use crate::collision::PairCache;
+use crate::error::Error;
+use crate::particles::Particles;
+use crate::settings::Settings;
+use crate::slots::Slots;
+use crate::world::{Scratch, World};
+
+const MAGIC: [u8; 8] = *b"tautline";
+const VERSION: u32 = 1;
+
+/// Everything but the trusses, which bodies share: each is stored once, and by its number for each body.
+#[derive(Serialize, Deserialize)]
+struct Stored {
+    settings: Settings,
+    particles: Particles,
+    bodies: Vec<Body>,
+    trusses: Vec<Truss>,
+    truss_of_body: Vec<Option<u32>>,
+    slots: Slots,
+    pairs: PairCache,
+    time: f64,
+}
+
+impl World {
+    /// The whole world as bytes. A world restored from them goes on exactly as this one does, also on another
+    /// platform, and knows the same handles.
+    pub fn snapshot(&self) -> Vec<u8> {
+        let (trusses, truss_of_body) = self.shared_trusses();
+        let stored = Stored {
+            settings: self.settings.clone(),
+            particles: self.particles.clone(),
+            bodies: self.bodies.clone(),
+            trusses: trusses.into_iter().cloned().collect(),
+            truss_of_body,
+            slots: self.slots.clone(),
+            pairs: self.pairs.clone(),
+            time: self.time,
+        };
+        let mut bytes = MAGIC.to_vec();
+        bytes.extend(VERSION.to_le_bytes());
+        // Writing plain data into memory has no way to fail.
+        bytes.extend(postcard::to_stdvec(&stored).unwrap_or_default());
+        bytes
+    }
+
+    /// The world that [`World::snapshot`] wrote.
+    ///
+    /// # Errors
+    /// [`Error::Snapshot`] if the bytes are something else, of another version, cut off or inconsistent.
+    pub fn restore(bytes: &[u8]) -> Result<Self, Error> {
+        let body =
+            bytes.strip_prefix(&MAGIC).ok_or_else(|| refuse("the bytes are not a snapshot of a world"))?;
+        let (version, body) = body.split_first_chunk().ok_or_else(|| refuse("it ends too early"))?;
+        let version = u32::from_le_bytes(*version);
+        if version != VERSION {
+            return Err(refuse(&format!("its version is {version}; this build reads version {VERSION}")));
+        }
+        let (stored, rest): (Stored, &[u8]) = postcard::take_from_bytes(body)
+            .map_err(|error| refuse(&format!("it cannot be read: {error}")))?;
+        if !rest.is_empty() {
+            return Err(refuse("there are bytes behind its end"));
+        }
+        stored.into_world()
+    }
+
+    /// The trusses in use, each once, and the number of each body's.
+    fn shared_trusses(&self) -> (Vec<&Truss>, Vec<Option<u32>>) {
+        let mut trusses: Vec<&Truss> = Vec::new();
+        // By address: bodies share a truss by pointing at it. The numbers follow the order of the bodies.
+        let mut known: BTreeMap<*const Truss, u32> = BTreeMap::new();
+        let mut truss_of_body = Vec::with_capacity(self.bodies.len());
+        for body in &self.bodies {
+            let Shape::Truss { truss } = &body.shape else {
+                truss_of_body.push(None);
+                continue;
+            };
+            let number = *known.entry(Arc::as_ptr(truss)).or_insert_with(|| {
+                trusses.push(truss);
+                trusses.len() as u32 - 1
+            });
+            truss_of_body.push(Some(number));
+        }
+        (trusses, truss_of_body)
+    }
+}
+
+impl Stored {
+    fn into_world(mut self) -> Result<World, Error> {
+        self.settings.validate().map_err(|error| refuse(&error.to_string()))?;
+        self.particles.validate()?;
+        self.trusses.iter().try_for_each(Truss::validate)?;
+        let trusses: Vec<Arc<Truss>> = std::mem::take(&mut self.trusses).into_iter().map(Arc::new).collect();
+        if self.truss_of_body.len() != self.bodies.len() || !self.slots.is_valid(self.bodies.len()) {
+            return Err(refuse("its lists of bodies disagree"));
+        }
+        let mut next = 0;
+        for (body, &truss_index) in self.bodies.iter_mut().zip(&self.truss_of_body) {
+            if let Shape::Truss { truss } = &mut body.shape {
+                let found = truss_index.and_then(|index| trusses.get(index as usize));
+                *truss = Arc::clone(found.ok_or_else(|| refuse("a body's truss is missing"))?);
+            }
+            body.validate(next)?;
+            next = body.particles.end;
+        }
+        if next != self.particles.len() || !self.pairs.is_valid(self.bodies.len()) || !self.time.is_finite() {
+            return Err(refuse("its particles or pairs disagree with its bodies"));
+        }
+        let Self { settings, particles, bodies, slots, pairs, time, .. } = self;
+        Ok(World { settings, particles, bodies, slots, pairs, time, scratch: Scratch::default() })
+    }
+}
+
+fn refuse(problem: &str) -> Error {
+    Error::Snapshot(problem.into())
+}
