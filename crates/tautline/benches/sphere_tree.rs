@@ -32,7 +32,7 @@ fn crumpled() -> Vec<Vec3> {
         seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         (seed >> 8) as f32 / 8_388_608.0 - 1.0
     };
-    let pleat = |i: u32| if i / 7 % 2 == 0 { i % 7 } else { 7 - i % 7 } as f32;
+    let pleat = |i: u32| if (i / 7).is_multiple_of(2) { i % 7 } else { 7 - i % 7 } as f32;
     let layer = |i: u32| (i / 7) as f32;
     let place = |i: u32| {
         let (column, row) = (i % N, i / N);

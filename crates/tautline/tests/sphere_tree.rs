@@ -256,7 +256,7 @@ proptest! {
         let shrunk: Vec<Vec3> = positions.iter().map(|&p| (p / 4.0).round() * scale + p).collect();
         let mut tree = LayeredTree::new(&features, &positions, 0.0).unwrap();
         tree.refit(&shrunk).unwrap();
-        let excluded = |i: usize, j: usize| (i + j) % 5 == 0;
+        let excluded = |i: usize, j: usize| (i + j).is_multiple_of(5);
         let spheres = tree.leaf_spheres();
         let mut expected = Vec::new();
         for i in 0..spheres.len() {
@@ -267,6 +267,54 @@ proptest! {
         let mut stack = DescentStack::default();
         descend_self(&tree, &mut stack, excluded, |i, j| found.push((i.min(j), i.max(j))));
         prop_assert_eq!(sorted(found), expected);
+    }
+}
+
+/// Uses a tree in every way there is; what passed validation must survive that.
+fn exercise(
+    layered: &mut LayeredTree,
+    wrapped: &WrappedTree,
+    state: &mut WrappedSpheres,
+    positions: &[Vec3],
+) {
+    layered.refit(positions).unwrap();
+    wrapped.padding_needed(positions).unwrap();
+    let mut stack = DescentStack::default();
+    descend_pair(&*layered, wrapped.pose(positions, state).unwrap(), &mut stack, |_, _| ());
+    descend_self(&*layered, &mut stack, |_, _| false, |_, _| ());
+    descend_self(wrapped.pose(positions, state).unwrap(), &mut stack, |_, _| false, |_, _| ());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn damaged_bytes_are_refused_or_harmless(
+        (features, positions) in features(),
+        damage in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..4),
+    ) {
+        let layered = LayeredTree::new(&features, &positions, 0.1).unwrap();
+        let wrapped = WrappedTree::new(&features, &positions, 0.1).unwrap();
+        let mut state = WrappedSpheres::default();
+        exercise(&mut layered.clone(), &wrapped, &mut state, &positions);
+        let intact = (layered, wrapped, state);
+        let mut bytes = postcard::to_stdvec(&intact).unwrap();
+        for (place, byte) in &damage {
+            let place = place.index(bytes.len());
+            bytes[place] = *byte;
+        }
+        let read = postcard::from_bytes::<(LayeredTree, WrappedTree, WrappedSpheres)>(&bytes);
+        if damage.is_empty() {
+            prop_assert_eq!(read.as_ref(), Ok(&intact));
+            prop_assert!(intact.0.validate(positions.len()).is_ok() && intact.1.validate(positions.len()).is_ok());
+            prop_assert!(intact.0.validate(intact.0.topology().particle_count() - 1).is_err());
+        }
+        if let Ok((mut layered, wrapped, mut state)) = read
+            && layered.validate(positions.len()).is_ok()
+            && wrapped.validate(positions.len()).is_ok()
+        {
+            exercise(&mut layered, &wrapped, &mut state, &positions);
+        }
     }
 }
 

@@ -32,8 +32,8 @@ impl LayeredTree {
         Ok(tree)
     }
 
-    /// Moves all spheres to the particles' `positions` (m). Positions that are not finite do no harm beyond
-    /// the spheres above them, which then overlap nothing.
+    /// Moves all spheres to the particles' `positions` (m). Positions that are not finite do no harm but to
+    /// the spheres above them: these overlap nothing, or leave such a particle out.
     ///
     /// # Errors
     /// [`Error::Invalid`] if there are fewer positions than the features need; the tree is as before.
