@@ -1,5 +1,7 @@
 //! The one error type of the engine: what was wrong, where, and what would be right.
 
+use glam::Vec3;
+
 /// Why a call was refused. The world is as it was before the call.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -25,8 +27,8 @@ pub enum Error {
     /// A mesh that cannot be used, with the place of its first defect.
     #[error("mesh: {0}")]
     Mesh(#[from] MeshDefect),
-    /// A handle whose body has been removed, or that belongs to another world.
-    #[error("this handle names no body of this world: it was removed, or belongs to another world")]
+    /// A handle whose body has been removed.
+    #[error("this handle names no body: it has been removed")]
     StaleHandle,
     /// Bytes that are not a snapshot this version can read.
     #[error("snapshot: {0}")]
@@ -125,4 +127,31 @@ pub enum MeshDefect {
     /// No tetrahedralisation was found that keeps the surface as it is.
     #[error("it could not be divided into tetrahedra: {0}")]
     Tetrahedralisation(String),
+}
+
+/// Refuses what is not a finite number above 0.
+pub(crate) fn positive(field: &str, value: f32) -> Result<f32, Error> {
+    within(field, value, f32::MIN_POSITIVE, f32::MAX, "a finite number above 0")
+}
+
+/// Refuses what is NaN or outside `low..=high`.
+pub(crate) fn within(
+    field: &str,
+    value: f32,
+    low: f32,
+    high: f32,
+    expected: &'static str,
+) -> Result<f32, Error> {
+    if (low..=high).contains(&value) {
+        return Ok(value);
+    }
+    Err(Error::OutOfRange { field: field.into(), value: f64::from(value), expected })
+}
+
+/// Refuses a vector with a coordinate that is NaN, infinite or beyond ±1e9.
+pub(crate) fn coordinates(field: &str, value: Vec3) -> Result<Vec3, Error> {
+    for (axis, part) in ["x", "y", "z"].into_iter().zip(value.to_array()) {
+        within(&format!("{field}.{axis}"), part, -1e9, 1e9, "a number from -1e9 to 1e9")?;
+    }
+    Ok(value)
 }

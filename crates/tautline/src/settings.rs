@@ -1,1 +1,126 @@
-//! Settings.
+//! How a world is simulated. Every number is checked when a world is made or its settings are replaced.
+
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Error, positive, within};
+
+/// How a world is simulated.
+///
+/// [`Settings::paper`] is the reference: one substep, ten sweeps, a tolerance of 1 %. [`Settings::default`]
+/// is the same method in smaller substeps, which hold stacks and keep cloth short.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Settings {
+    /// Acceleration of every free particle, in m/s².
+    pub gravity: Vec3,
+    /// Substeps in a step, 1 to 1000: each integrates, detects, separates and relaxes.
+    pub substeps: u32,
+    /// How the sticks are relaxed.
+    pub relaxation: Relaxation,
+    /// Rate at which free motion dies out, in 1/s: v' = v/(1 + damping·h). 0 = none.
+    pub damping: f32,
+    /// How pairs of bodies that may touch are found.
+    pub broad_phase: BroadPhase,
+    /// When resting bodies are put to sleep; `None` = never.
+    pub sleep: Option<Sleep>,
+}
+
+/// How the sticks of a body are relaxed (paper, 6.2).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Relaxation {
+    /// The most sweeps over a body's sticks in a substep, 1 to 10 000; fewer if all are within tolerance.
+    pub sweeps: u32,
+    /// A stick is relaxed only if its length is off by more than this share of its rest length, 0 to 0.5.
+    pub tolerance: f32,
+    /// In which order a collided rigid body's sticks are relaxed.
+    pub ordering: Ordering,
+    /// How a stick's length is found.
+    pub square_root: SquareRoot,
+}
+
+/// In which order the sticks of a collided rigid body are relaxed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Ordering {
+    /// By graph distance from the particle that separation moved furthest, near ones repeated (paper, 6.2).
+    ByDistance,
+    /// As the body was built (Jakobsen).
+    AsBuilt,
+}
+
+/// How a stick's length is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SquareRoot {
+    /// √ as the processor rounds it.
+    Exact,
+    /// Jakobsen's first-order expansion of √ about the rest length: one Newton step, no root.
+    FirstOrder,
+}
+
+/// How pairs of bodies that may touch are found. The result is the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum BroadPhase {
+    /// Boxes sorted along the axis they spread most on, and swept.
+    SortAndSweep,
+    /// Every pair is tested, as the paper does: O(n²).
+    AllPairs,
+}
+
+/// When a body counts as resting.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Sleep {
+    /// A body whose particles drift slower than this, in m/s, …
+    pub speed: f32,
+    /// … for this long, in s, falls asleep.
+    pub seconds: f32,
+}
+
+impl Settings {
+    /// The paper's own: one substep a step, ten sweeps, 1 % tolerance, ordered lists.
+    pub fn paper() -> Self {
+        Self {
+            gravity: Vec3::new(0.0, -9.81, 0.0),
+            substeps: 1,
+            relaxation: Relaxation {
+                sweeps: 10,
+                tolerance: 0.01,
+                ordering: Ordering::ByDistance,
+                square_root: SquareRoot::Exact,
+            },
+            damping: 0.0,
+            broad_phase: BroadPhase::SortAndSweep,
+            sleep: Some(Sleep { speed: 0.03, seconds: 0.5 }),
+        }
+    }
+
+    /// Checks every field; the error names the first that is wrong.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] with the path of the field.
+    pub fn validate(&self) -> Result<(), Error> {
+        for (axis, value) in ["x", "y", "z"].into_iter().zip(self.gravity.to_array()) {
+            within(&format!("settings.gravity.{axis}"), value, -1e6, 1e6, "a number from -1e6 to 1e6 (m/s²)")?;
+        }
+        count("settings.substeps", self.substeps, 1000, "a whole number from 1 to 1000")?;
+        count("settings.relaxation.sweeps", self.relaxation.sweeps, 10_000, "a whole number from 1 to 10000")?;
+        within("settings.relaxation.tolerance", self.relaxation.tolerance, 0.0, 0.5, "a share from 0 to 0.5")?;
+        within("settings.damping", self.damping, 0.0, 1e6, "a rate from 0 to 1e6 (1/s)")?;
+        if let Some(sleep) = self.sleep {
+            positive("settings.sleep.speed", sleep.speed)?;
+            positive("settings.sleep.seconds", sleep.seconds)?;
+        }
+        Ok(())
+    }
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { substeps: 4, ..Self::paper() }
+    }
+}
+
+fn count(field: &str, value: u32, most: u32, expected: &'static str) -> Result<(), Error> {
+    if (1..=most).contains(&value) {
+        return Ok(());
+    }
+    Err(Error::OutOfRange { field: field.into(), value: f64::from(value), expected })
+}

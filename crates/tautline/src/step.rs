@@ -1,1 +1,164 @@
-//! The step, phase by phase.
+//! The step, phase by phase, in physical order.
+
+use glam::Vec3;
+
+use crate::body::{Body, Shape};
+use crate::collision::{Aabb, Candidate, Scene, find_pairs};
+use crate::error::{Error, within};
+use crate::particles::{Particles, VerletStep};
+use crate::report::{Clock, Fault, Phase, StepReport, Stopwatch};
+use crate::rest::{put_to_sleep, wake_touched};
+use crate::solver::paper::{relax_bodies, separate};
+use crate::world::World;
+
+impl World {
+    /// Advances the world by `dt` seconds, in `settings.substeps` equal substeps.
+    ///
+    /// The same scene, settings and sequence of `dt` give the same bits on every platform, instruction set and
+    /// number of threads. It never panics; a particle that turns non-finite is frozen and reported.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] unless `dt` is above 0 and at most 1 s; the world is as before.
+    pub fn step(&mut self, dt: f32) -> Result<StepReport, Error> {
+        self.step_with_clock(dt, &mut || 0.0)
+    }
+
+    /// As [`World::step`], with times by phase in the report: `clock` tells the time, in s. The engine has no
+    /// clock of its own.
+    ///
+    /// # Errors
+    /// As [`World::step`].
+    pub fn step_with_clock(&mut self, dt: f32, clock: &mut Clock<'_>) -> Result<StepReport, Error> {
+        within("dt", dt, 1e-7, 1.0, "a time from 1e-7 to 1 (s)")?;
+        let mut report = StepReport::default();
+        let mut watch = Stopwatch::start(clock);
+        for _ in 0..self.settings.substeps {
+            self.substep(dt / self.settings.substeps as f32, &mut report, &mut watch);
+        }
+        self.rest(dt);
+        self.particles.force.fill(Vec3::ZERO);
+        self.time += f64::from(dt);
+        report.seconds = watch.finish();
+        report.awake_bodies = self.bodies.iter().filter(|body| body.is_awake()).count();
+        Ok(report)
+    }
+
+    fn substep(&mut self, h: f32, report: &mut StepReport, watch: &mut Stopwatch<'_, '_>) {
+        self.integrate(h);
+        watch.lap(Phase::Integrate);
+        self.refit_trees();
+        self.find_pairs();
+        watch.lap(Phase::BroadPhase);
+        self.find_contacts();
+        watch.lap(Phase::NarrowPhase);
+        self.wake_touched(h);
+        report.contacts += self.separate();
+        watch.lap(Phase::Separate);
+        let counts = relax_bodies(
+            &mut self.bodies,
+            &mut self.particles,
+            &self.scratch.moved,
+            &self.settings.relaxation,
+            h,
+        );
+        watch.lap(Phase::Relax);
+        report.pairs += self.pairs.pairs.len();
+        report.visits += counts.visits;
+        report.relaxations += counts.relaxations;
+        self.contain_faults(report);
+    }
+
+    /// Verlet's step for every particle that can move (paper, 3.1).
+    fn integrate(&mut self, h: f32) {
+        let damping = 1.0 / (1.0 + self.settings.damping * h);
+        let store = &mut self.particles;
+        for body in self.bodies.iter_mut().filter(|body| body.is_awake()) {
+            let ratio = h / body.displacement_time();
+            let step = VerletStep { keep: ratio * damping, kick: h * (h + body.previous_step) / 2.0 };
+            body.previous_step = h;
+            for i in body.particles.clone() {
+                let w = store.inverse_mass[i];
+                if w > 0.0 {
+                    let acceleration = self.settings.gravity + store.force[i] * w;
+                    step.advance(&mut store.position[i], &mut store.displacement[i], acceleration);
+                }
+            }
+        }
+    }
+
+    /// Fits the sphere trees of deformable bodies to their particles; those of rigid bodies follow lazily.
+    fn refit_trees(&mut self) {
+        for body in self.bodies.iter_mut().filter(|body| body.is_awake()) {
+            if let Shape::Deformable(deformable) = &mut body.shape {
+                // It fails only for a range that is too short, which a body's own never is.
+                let _ = deformable.tree.refit(&self.particles.position[body.particles.clone()]);
+            }
+        }
+    }
+
+    fn find_pairs(&mut self) {
+        let scratch = &mut self.scratch;
+        scratch.candidates.clear();
+        for (index, body) in self.bodies.iter().enumerate() {
+            if matches!(body.shape, Shape::HalfSpace(_)) {
+                continue;
+            }
+            let bounds = Aabb::around(&self.particles.position[body.particles.clone()], body.reach());
+            scratch.candidates.push(Candidate { body: index as u32, bounds, awake: body.is_awake() });
+        }
+        find_pairs(&mut scratch.candidates, self.settings.broad_phase, &mut scratch.found);
+        self.pairs.update(&scratch.found);
+    }
+
+    fn find_contacts(&mut self) {
+        let scene = Scene { bodies: &self.bodies, particles: &self.particles };
+        self.scratch.narrow_phase.find_contacts(scene, &mut self.pairs.pairs, &mut self.scratch.contacts);
+    }
+
+    fn wake_touched(&mut self, h: f32) {
+        if let Some(sleep) = self.settings.sleep {
+            let gravity_step = self.settings.gravity * (h * h);
+            let reach = 2.0 * sleep.speed * h;
+            let contacts = &self.scratch.contacts;
+            wake_touched(&mut self.bodies, &self.particles, contacts, gravity_step, reach);
+        }
+    }
+
+    fn separate(&mut self) -> usize {
+        self.scratch.moved.clear();
+        self.scratch.moved.resize(self.bodies.len(), None);
+        separate(&self.scratch.contacts, &self.bodies, &mut self.particles, &mut self.scratch.moved)
+    }
+
+    /// Freezes bodies with a non-finite particle where they were last known to be.
+    fn contain_faults(&mut self, report: &mut StepReport) {
+        let store = &mut self.particles;
+        for (index, body) in self.bodies.iter_mut().enumerate().filter(|(_, body)| body.is_awake()) {
+            let sound = |i: usize| store.position[i].is_finite() && store.displacement[i].is_finite();
+            if let Some(particle) = body.particles.clone().position(|i| !sound(i)) {
+                freeze(body, store);
+                report.faults.push(Fault { body: self.slots.handle(index), particle: particle as u32 });
+            }
+        }
+    }
+
+    fn rest(&mut self, dt: f32) {
+        match self.settings.sleep {
+            Some(sleep) => {
+                put_to_sleep(&mut self.bodies, &mut self.particles, &self.scratch.contacts, sleep, dt);
+            }
+            None => self.bodies.iter_mut().for_each(Body::wake),
+        }
+    }
+}
+
+fn freeze(body: &mut Body, store: &mut Particles) {
+    for (k, i) in body.particles.clone().enumerate() {
+        if !store.position[i].is_finite() {
+            store.position[i] = body.rest.reference.get(k).copied().unwrap_or_default();
+        }
+        store.displacement[i] = Vec3::ZERO;
+        store.inverse_mass[i] = 0.0;
+    }
+    body.fixed = true;
+}

@@ -1,1 +1,134 @@
-//! Builders of bodies: each turns a description into particles, constraints and geometry.
+//! Bodies. Each builder turns a description into particles, constraints and geometry; vertex `i` of the
+//! geometry is particle `i` of the body.
+
+mod cloth;
+mod deformable;
+mod half_space;
+mod pose;
+mod rope;
+mod truss;
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+pub use cloth::{Cloth, Corner};
+pub use half_space::HalfSpace;
+pub use rope::Rope;
+pub use truss::{Truss, TrussBody};
+
+pub(crate) use deformable::{BuiltDeformable, Deformable};
+
+/// What a body is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BodyKind {
+    /// A rigid body held together by sticks.
+    Truss,
+    /// A sheet.
+    Cloth,
+    /// A rope.
+    Rope,
+    /// Everything behind a plane.
+    HalfSpace,
+}
+
+/// A body to be added to a world: any of the builders turns into one.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum BodyDescription {
+    /// A rigid body held together by sticks.
+    Truss(TrussBody),
+    /// A sheet.
+    Cloth(Cloth),
+    /// A rope.
+    Rope(Rope),
+    /// Everything behind a plane.
+    HalfSpace(HalfSpace),
+}
+
+macro_rules! describe {
+    ($($builder:ident => $variant:ident),*) => {
+        $(impl From<$builder> for BodyDescription {
+            fn from(builder: $builder) -> Self {
+                Self::$variant(builder)
+            }
+        })*
+    };
+}
+describe!(TrussBody => Truss, Cloth => Cloth, Rope => Rope, HalfSpace => HalfSpace);
+
+/// A body in a world.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Body {
+    pub(crate) particles: Range<usize>,
+    pub(crate) shape: Shape,
+    pub(crate) friction: f32,
+    /// Whether it can move at all; pins hold single particles.
+    pub(crate) fixed: bool,
+    /// h⁻, in s: the substep its displacements belong to; 0 = newly placed, they are velocities in m/s.
+    pub(crate) previous_step: f32,
+    pub(crate) rest: Rest,
+}
+
+/// What a body is made of besides particles.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) enum Shape {
+    Truss {
+        /// Shared between bodies; a snapshot stores each once, beside the bodies.
+        #[serde(skip)]
+        truss: Arc<Truss>,
+    },
+    Deformable(Deformable),
+    HalfSpace(HalfSpace),
+}
+
+/// How long a body has been still.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Rest {
+    pub(crate) asleep: bool,
+    /// For how long its particles have been near `reference`, in s.
+    pub(crate) still_for: f32,
+    /// Where its particles were when it was last found moving; empty until the first step.
+    pub(crate) reference: Vec<Vec3>,
+}
+
+impl Body {
+    pub(crate) fn new(particles: Range<usize>, shape: Shape, friction: f32, fixed: bool) -> Self {
+        let rest = Rest { asleep: false, still_for: 0.0, reference: Vec::new() };
+        Self { particles, shape, friction, fixed, previous_step: 0.0, rest }
+    }
+
+    pub(crate) fn kind(&self) -> BodyKind {
+        match &self.shape {
+            Shape::Truss { .. } => BodyKind::Truss,
+            Shape::Deformable(deformable) if deformable.is_rope() => BodyKind::Rope,
+            Shape::Deformable(_) => BodyKind::Cloth,
+            Shape::HalfSpace(_) => BodyKind::HalfSpace,
+        }
+    }
+
+    /// Whether a step moves it.
+    pub(crate) fn is_awake(&self) -> bool {
+        !self.fixed && !self.rest.asleep
+    }
+
+    /// How far beyond its particles it may touch, in m.
+    pub(crate) fn reach(&self) -> f32 {
+        match &self.shape {
+            Shape::Deformable(deformable) => deformable.reach(),
+            Shape::Truss { .. } | Shape::HalfSpace(_) => 0.0,
+        }
+    }
+
+    /// The time its displacements took, in s: d divided by it is the velocity.
+    pub(crate) fn displacement_time(&self) -> f32 {
+        if self.previous_step > 0.0 { self.previous_step } else { 1.0 }
+    }
+
+    pub(crate) fn wake(&mut self) {
+        self.rest.asleep = false;
+        self.rest.still_for = 0.0;
+    }
+}

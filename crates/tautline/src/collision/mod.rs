@@ -1,1 +1,13 @@
-//! Which things touch. Moves nothing.
+//! Which bodies touch, and where. Moves nothing.
+
+mod broad_phase;
+mod contact;
+mod narrow_phase;
+mod pair;
+mod solid;
+mod winding;
+
+pub(crate) use broad_phase::{Aabb, Candidate, find_pairs};
+pub(crate) use contact::{Contact, Patch};
+pub(crate) use narrow_phase::{NarrowPhase, Scene};
+pub(crate) use pair::PairCache;

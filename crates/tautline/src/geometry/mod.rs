@@ -1,2 +1,14 @@
 //! Geometric queries on values: spheres and their trees, support mappings, GJK and EPA, features. Knows no
 //! world.
+
+pub mod closest;
+pub mod distance;
+pub mod epa;
+pub mod feature;
+pub mod gjk;
+pub mod simplex;
+mod sphere;
+pub mod sphere_tree;
+pub mod support;
+
+pub use sphere::{EnclosingSphere, Sphere, Support, circumsphere, smallest_enclosing_sphere};

@@ -1,8 +1,16 @@
 //! Surfaces and solids: half-edge meshes, primitives, hulls, tetrahedra and mass properties. Knows no
 //! world.
 
+mod exact;
+mod half_edge;
+mod hull;
+mod mass_properties;
+pub mod primitives;
 mod tetrahedra;
 mod tri_mesh;
 
+pub use half_edge::HalfEdgeMesh;
+pub use hull::{ConvexHull, convex_hull};
+pub use mass_properties::MassProperties;
 pub use tetrahedra::{Tetrahedra, tetrahedralise};
 pub use tri_mesh::TriMesh;

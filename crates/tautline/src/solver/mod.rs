@@ -1,1 +1,3 @@
 //! What moves the particles.
+
+pub(crate) mod paper;

@@ -1,0 +1,199 @@
+//! Cloth: a sheet of particles with sticks on the edges of its triangles (paper, 4).
+
+use glam::{Quat, Vec3};
+
+use super::deformable::{BuiltDeformable, Deformable, Parts};
+use crate::constraint::{AngleLimit, Bending, Stick};
+use crate::error::{Error, coordinates, positive, within};
+use crate::geometry::sphere_tree::Feature;
+use crate::mesh::{HalfEdgeMesh, TriMesh, primitives};
+
+/// A sheet to be added to a world.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cloth {
+    surface: Surface,
+    position: Vec3,
+    rotation: Quat,
+    velocity: Vec3,
+    mass: f32,
+    friction: f32,
+    thickness: Option<f32>,
+    self_collision: bool,
+    bending_compliance: Option<f32>,
+    pins: Vec<u32>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Surface {
+    Grid { columns: u32, rows: u32, width: f32, depth: f32 },
+    Mesh(TriMesh),
+}
+
+/// A corner of a cloth grid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Corner {
+    /// Column 0, row 0: least x, least z.
+    First,
+    /// Last column, row 0: greatest x, least z.
+    RowEnd,
+    /// Column 0, last row: least x, greatest z.
+    ColumnEnd,
+    /// Last column, last row: greatest x, greatest z.
+    Last,
+}
+
+impl Cloth {
+    /// A level rectangle about the origin, `width` along x and `depth` along z (m), of `columns` × `rows`
+    /// particles; particle `row·columns + column`. 1 kg, friction 0.5, self-colliding, without bending.
+    pub fn grid(columns: u32, rows: u32, width: f32, depth: f32) -> Self {
+        Self::with_surface(Surface::Grid { columns, rows, width, depth })
+    }
+
+    /// Any triangulated surface, also with holes, in m. 1 kg, friction 0.5, self-colliding, without bending.
+    pub fn from_mesh(mesh: TriMesh) -> Self {
+        Self::with_surface(Surface::Mesh(mesh))
+    }
+
+    fn with_surface(surface: Surface) -> Self {
+        Self {
+            surface,
+            position: Vec3::ZERO,
+            rotation: Quat::IDENTITY,
+            velocity: Vec3::ZERO,
+            mass: 1.0,
+            friction: 0.5,
+            thickness: None,
+            self_collision: true,
+            bending_compliance: None,
+            pins: Vec::new(),
+        }
+    }
+
+    /// Where the surface's origin is put, in m.
+    pub fn position(self, position: Vec3) -> Self {
+        Self { position, ..self }
+    }
+
+    /// Rotation about the surface's origin; normalised when added.
+    pub fn rotation(self, rotation: Quat) -> Self {
+        Self { rotation, ..self }
+    }
+
+    /// Velocity of all particles, in m/s.
+    pub fn velocity(self, velocity: Vec3) -> Self {
+        Self { velocity, ..self }
+    }
+
+    /// Mass, in kg, shared equally by its particles.
+    pub fn mass(self, mass: f32) -> Self {
+        Self { mass, ..self }
+    }
+
+    /// Coulomb's coefficient of friction; a contact uses the geometric mean of both bodies' own.
+    pub fn friction(self, friction: f32) -> Self {
+        Self { friction, ..self }
+    }
+
+    /// How far from solids it is kept, in m: enough to cover what pokes through between its particles. At most
+    /// the radius of its leaf spheres is used. Default 0.6 × the mean edge length.
+    pub fn thickness(self, thickness: f32) -> Self {
+        Self { thickness: Some(thickness), ..self }
+    }
+
+    /// Whether it collides with itself.
+    pub fn self_collision(self, self_collision: bool) -> Self {
+        Self { self_collision, ..self }
+    }
+
+    /// Holds the angle between neighbouring triangles with this compliance, in rad/(N·m); 0 = rigid.
+    pub fn bending(self, compliance: f32) -> Self {
+        Self { bending_compliance: Some(compliance), ..self }
+    }
+
+    /// Pins a particle where it starts.
+    pub fn pin(mut self, particle: u32) -> Self {
+        self.pins.push(particle);
+        self
+    }
+
+    /// Pins a corner of a grid; no effect on other surfaces.
+    pub fn pin_corner(self, corner: Corner) -> Self {
+        let Surface::Grid { columns, rows, .. } = self.surface else { return self };
+        let (last_column, last_row) = (columns.saturating_sub(1), rows.saturating_sub(1));
+        self.pin(match corner {
+            Corner::First => 0,
+            Corner::RowEnd => last_column,
+            Corner::ColumnEnd => last_row.saturating_mul(columns),
+            Corner::Last => last_row.saturating_mul(columns).saturating_add(last_column),
+        })
+    }
+
+    pub(crate) fn build(self) -> Result<BuiltDeformable, Error> {
+        self.validate()?;
+        let mesh = match &self.surface {
+            Surface::Grid { columns, rows, width, depth } => primitives::grid(*columns, *rows, *width, *depth)?,
+            Surface::Mesh(mesh) => mesh.clone(),
+        };
+        let half_edges = HalfEdgeMesh::from_mesh(&mesh)?;
+        if let Some(pin) = self.pins.iter().find(|&&pin| pin as usize >= mesh.positions.len()) {
+            let (field, value) = ("pins".into(), f64::from(*pin));
+            return Err(Error::OutOfRange { field, value, expected: "the number of one of its particles" });
+        }
+        let rotation = self.rotation.normalize();
+        let positions: Vec<Vec3> = mesh.positions.iter().map(|&p| self.position + rotation * p).collect();
+        let sticks: Vec<Stick> = half_edges.edges().map(|[a, b]| Stick::at_rest(a, b, &positions)).collect();
+        let mean_edge = sticks.iter().map(|stick| stick.rest_length).sum::<f32>() / sticks.len() as f32;
+        let leaves = match self.surface {
+            Surface::Grid { columns, rows, .. } => grid_cells(columns, rows),
+            Surface::Mesh(_) => mesh.triangles.iter().map(|&t| Feature::Triangle(t)).collect(),
+        };
+        let parts = Parts {
+            bendings: bendings(&half_edges, &positions, self.bending_compliance),
+            triangles: mesh.triangles,
+            sticks,
+            angles: Vec::new(),
+            leaves,
+            leaf_margin: 0.0,
+            thickness: self.thickness.unwrap_or(0.6 * mean_edge),
+            self_collision: self.self_collision,
+        };
+        let body = Deformable::new(parts, &positions)?;
+        let Self { velocity, mass, friction, pins, .. } = self;
+        Ok(BuiltDeformable { positions, body, velocity, mass, friction, pins })
+    }
+
+    fn validate(&self) -> Result<(), Error> {
+        coordinates("position", self.position)?;
+        coordinates("velocity", self.velocity)?;
+        within("rotation", self.rotation.length_squared(), 1e-6, 1e6, "a quaternion with a length near 1")?;
+        positive("mass", self.mass)?;
+        within("friction", self.friction, 0.0, 1e6, "a number from 0 to 1e6")?;
+        if let Some(thickness) = self.thickness {
+            within("thickness", thickness, 0.0, 1e6, "a length from 0 to 1e6 (m)")?;
+        }
+        if let Some(compliance) = self.bending_compliance {
+            within("bending_compliance", compliance, 0.0, 1e12, "a number from 0 to 1e12 (rad/(N·m))")?;
+        }
+        Ok(())
+    }
+}
+
+/// The cells of a grid: half as many leaves as triangles, and rounder.
+fn grid_cells(columns: u32, rows: u32) -> Vec<Feature> {
+    let cell = |row: u32, column: u32| {
+        let first = row * columns + column;
+        Feature::Quad([first, first + 1, first + columns + 1, first + columns])
+    };
+    (0..rows - 1).flat_map(|row| (0..columns - 1).map(move |column| cell(row, column))).collect()
+}
+
+fn bendings(mesh: &HalfEdgeMesh, positions: &[Vec3], compliance: Option<f32>) -> Vec<Bending> {
+    let Some(compliance) = compliance else { return Vec::new() };
+    let at_rest = |[start, end, first, second]: [u32; 4]| {
+        let [e0, e1, w0, w1] = [start, end, first, second].map(|v| positions[v as usize]);
+        let (angle, _) = crate::constraint::bending_gradient([w0, w1], [e0, e1])?;
+        let limit = AngleLimit::Target(angle);
+        Some(Bending { edge: [start, end], wings: [first, second], limit, compliance })
+    };
+    mesh.hinges().filter_map(at_rest).collect()
+}

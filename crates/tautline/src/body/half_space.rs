@@ -1,0 +1,44 @@
+//! Floors and walls.
+
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Error, coordinates, within};
+
+/// Everything behind a plane is solid: the points x with n·x < offset. It never moves, and nothing can tunnel
+/// through it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct HalfSpace {
+    pub(crate) normal: Vec3,
+    pub(crate) offset: f32,
+    pub(crate) friction: f32,
+}
+
+impl HalfSpace {
+    /// The half-space behind the plane n·x = offset (m), friction 0.5. `normal` points out of the solid, into
+    /// the open, and need not be unit: it is normalised when added, `offset` counts along the unit normal.
+    pub fn new(normal: Vec3, offset: f32) -> Self {
+        Self { normal, offset, friction: 0.5 }
+    }
+
+    /// The level floor at height `y`, in m.
+    pub fn floor(y: f32) -> Self {
+        Self::new(Vec3::Y, y)
+    }
+
+    /// Coulomb's coefficient of friction; a contact uses the geometric mean of both bodies' own.
+    pub fn friction(self, friction: f32) -> Self {
+        Self { friction, ..self }
+    }
+
+    pub(crate) fn validated(self) -> Result<Self, Error> {
+        coordinates("normal", self.normal)?;
+        within("offset", self.offset, -1e9, 1e9, "a number from -1e9 to 1e9 (m)")?;
+        within("friction", self.friction, 0.0, 1e6, "a number from 0 to 1e6")?;
+        let Some(normal) = self.normal.try_normalize() else {
+            let problem = "is zero; it must point out of the solid".into();
+            return Err(Error::Invalid { field: "normal".into(), problem });
+        };
+        Ok(Self { normal, ..self })
+    }
+}

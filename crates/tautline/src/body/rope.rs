@@ -1,0 +1,157 @@
+//! Rope: a polyline of particles with sticks along it (paper, 4).
+
+use glam::Vec3;
+
+use super::deformable::{BuiltDeformable, Deformable, Parts};
+use crate::constraint::{Angle, AngleLimit, Stick, angle_gradient};
+use crate::error::{Error, coordinates, positive, within};
+use crate::geometry::sphere_tree::Feature;
+
+/// A rope to be added to a world.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rope {
+    points: Vec<Vec3>,
+    length: Option<f32>,
+    velocity: Vec3,
+    mass: f32,
+    radius: f32,
+    friction: f32,
+    self_collision: bool,
+    bending_compliance: Option<f32>,
+    pins: Vec<u32>,
+}
+
+impl Rope {
+    /// A rope through these points, in m, with a particle at each. 1 kg, radius 2 cm, friction 0.5, without
+    /// bending, passing through itself.
+    pub fn through(points: Vec<Vec3>) -> Self {
+        Self {
+            points,
+            length: None,
+            velocity: Vec3::ZERO,
+            mass: 1.0,
+            radius: 0.02,
+            friction: 0.5,
+            self_collision: false,
+            bending_compliance: None,
+            pins: Vec::new(),
+        }
+    }
+
+    /// A straight rope from `start` to `end`, in m, of `segments` equal parts. Otherwise as [`Rope::through`].
+    pub fn straight(start: Vec3, end: Vec3, segments: u32) -> Self {
+        let count = segments.min(MOST_SEGMENTS + 1);
+        Self::through((0..=count).map(|i| start.lerp(end, i as f32 / count.max(1) as f32)).collect())
+    }
+
+    /// Its length at rest, in m, if it is not the length it is laid out at: all segments are scaled alike.
+    pub fn length(self, length: f32) -> Self {
+        Self { length: Some(length), ..self }
+    }
+
+    /// Velocity of all particles, in m/s.
+    pub fn velocity(self, velocity: Vec3) -> Self {
+        Self { velocity, ..self }
+    }
+
+    /// Mass, in kg, shared equally by its particles.
+    pub fn mass(self, mass: f32) -> Self {
+        Self { mass, ..self }
+    }
+
+    /// Radius, in m.
+    pub fn radius(self, radius: f32) -> Self {
+        Self { radius, ..self }
+    }
+
+    /// Coulomb's coefficient of friction; a contact uses the geometric mean of both bodies' own.
+    pub fn friction(self, friction: f32) -> Self {
+        Self { friction, ..self }
+    }
+
+    /// Whether it collides with itself.
+    pub fn self_collision(self, self_collision: bool) -> Self {
+        Self { self_collision, ..self }
+    }
+
+    /// Holds the angle at every inner particle as laid out, with this compliance in rad/(N·m); 0 = rigid.
+    pub fn bending(self, compliance: f32) -> Self {
+        Self { bending_compliance: Some(compliance), ..self }
+    }
+
+    /// Pins a particle where it starts.
+    pub fn pin(mut self, particle: u32) -> Self {
+        self.pins.push(particle);
+        self
+    }
+
+    /// Pins both ends.
+    pub fn pin_ends(self) -> Self {
+        let last = self.points.len().saturating_sub(1) as u32;
+        self.pin(0).pin(last)
+    }
+
+    pub(crate) fn build(self) -> Result<BuiltDeformable, Error> {
+        self.validate()?;
+        let last = self.points.len() as u32 - 1;
+        let laid_out: f32 = self.points.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+        let scale = self.length.map_or(1.0, |length| length / laid_out);
+        let mut sticks: Vec<Stick> = (0..last).map(|i| Stick::at_rest(i, i + 1, &self.points)).collect();
+        sticks.iter_mut().for_each(|stick| stick.rest_length *= scale);
+        let parts = Parts {
+            triangles: Vec::new(),
+            sticks,
+            angles: angles(&self.points, self.bending_compliance),
+            bendings: Vec::new(),
+            leaves: (0..last).map(|i| Feature::Segment([i, i + 1])).collect(),
+            leaf_margin: self.radius,
+            thickness: self.radius,
+            self_collision: self.self_collision,
+        };
+        let body = Deformable::new(parts, &self.points)?;
+        let Self { points, velocity, mass, friction, pins, .. } = self;
+        Ok(BuiltDeformable { positions: points, body, velocity, mass, friction, pins })
+    }
+
+    fn validate(&self) -> Result<(), Error> {
+        let count = self.points.len();
+        if !(2..=MOST_SEGMENTS as usize + 1).contains(&count) {
+            let problem = format!("{count} points; a rope needs 2 to {}", MOST_SEGMENTS + 1);
+            return Err(Error::Invalid { field: "points".into(), problem });
+        }
+        for (index, &point) in self.points.iter().enumerate() {
+            coordinates(&format!("points[{index}]"), point)?;
+        }
+        if let Some(index) = self.points.windows(2).position(|pair| pair[0] == pair[1]) {
+            let problem = format!("is where points[{index}] is; a segment needs a length");
+            return Err(Error::Invalid { field: format!("points[{}]", index + 1), problem });
+        }
+        if let Some(pin) = self.pins.iter().find(|&&pin| pin as usize >= count) {
+            let (field, value) = ("pins".into(), f64::from(*pin));
+            return Err(Error::OutOfRange { field, value, expected: "the number of one of its particles" });
+        }
+        coordinates("velocity", self.velocity)?;
+        positive("mass", self.mass)?;
+        positive("radius", self.radius)?;
+        within("friction", self.friction, 0.0, 1e6, "a number from 0 to 1e6")?;
+        if let Some(length) = self.length {
+            positive("length", length)?;
+        }
+        if let Some(compliance) = self.bending_compliance {
+            within("bending_compliance", compliance, 0.0, 1e12, "a number from 0 to 1e12 (rad/(N·m))")?;
+        }
+        Ok(())
+    }
+}
+
+const MOST_SEGMENTS: u32 = 1_000_000;
+
+fn angles(points: &[Vec3], compliance: Option<f32>) -> Vec<Angle> {
+    let Some(compliance) = compliance else { return Vec::new() };
+    let at_rest = |b: u32| {
+        let [x, y, z] = [b - 1, b, b + 1].map(|i| points[i as usize]);
+        let (angle, _) = angle_gradient(x, y, z)?;
+        Some(Angle { a: b - 1, b, c: b + 1, limit: AngleLimit::Target(angle), compliance })
+    };
+    (1..points.len() as u32 - 1).filter_map(at_rest).collect()
+}

@@ -1,0 +1,35 @@
+//! Whether a point is inside a closed surface of any shape.
+
+use glam::{DVec3, Vec3};
+
+/// Whether the surface winds around `point`: the solid angles of its triangles (Van Oosterom and Strackee 1983)
+/// sum to 4π inside and to 0 outside.
+pub(crate) fn is_inside(point: Vec3, positions: &[Vec3], triangles: &[[u32; 3]]) -> bool {
+    let corner = |v: u32| (positions[v as usize] - point).as_dvec3();
+    let angle: f64 = triangles.iter().map(|t| solid_angle(t.map(corner))).sum();
+    angle > std::f64::consts::TAU
+}
+
+fn solid_angle([a, b, c]: [DVec3; 3]) -> f64 {
+    let (la, lb, lc) = (a.length(), b.length(), c.length());
+    let volume = a.dot(b.cross(c));
+    let denominator = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+    2.0 * libm::atan2(volume, denominator)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::primitives;
+
+    #[test]
+    fn tells_the_tube_of_a_torus_from_its_hole() {
+        let torus = primitives::torus(1.0, 0.3, 32, 16).unwrap();
+        let inside = |point| is_inside(point, &torus.positions, &torus.triangles);
+        let ring = torus.positions.iter().map(|p| p.y.abs()).fold(0.0, f32::max) < 0.5;
+        let on_ring = if ring { Vec3::new(1.0, 0.0, 0.1) } else { Vec3::new(1.0, 0.1, 0.0) };
+        assert!(inside(on_ring) || inside(Vec3::new(0.0, 1.0, 0.1)));
+        assert!(!inside(Vec3::ZERO));
+        assert!(!inside(Vec3::splat(3.0)));
+    }
+}

@@ -1,0 +1,175 @@
+//! Queries on two convex sets: the contact that a step asks for, and the signed distance for everybody else.
+//! Both run the same GJK and EPA.
+
+use glam::{DVec3, Vec3};
+
+use super::epa::Epa;
+use super::feature::{ContactFeatures, FeaturePoint};
+use super::gjk::{self, Gjk, MAX_ITERATIONS, Proximity};
+use super::simplex::CsoVertex;
+use super::support::{Points, Support};
+use crate::Error;
+
+/// What [`contact`] found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// The touching features, or `None` if the sets are apart.
+    pub features: Option<ContactFeatures>,
+    /// Pairs of support points computed, by GJK and EPA.
+    pub iterations: u32,
+    /// Whether the answer is certain within rounding; see [`Distance::converged`].
+    pub converged: bool,
+}
+
+/// Whether A and B intersect, and if so, where: GJK from the pair's `axis` of the last step, then EPA.
+///
+/// `axis` points from A to B; zero means unknown. It is replaced by the axis found, to be kept for the next
+/// step: one that separates, or the contact normal. `epa` is scratch memory.
+pub fn contact(a: &impl Support, b: &impl Support, axis: &mut Vec3, epa: &mut Epa) -> Contact {
+    let gjk = gjk::intersect(a, b, axis);
+    if gjk.proximity != Proximity::Intersecting {
+        return Contact { features: None, iterations: gjk.iterations, converged: gjk.converged };
+    }
+    let face = epa.hit_face(a, b, &gjk.simplex, *axis, MAX_ITERATIONS - gjk.iterations);
+    *axis = face.normal.as_vec3();
+    Contact {
+        features: Some(ContactFeatures::new(a, b, &face)),
+        iterations: gjk.iterations + face.iterations,
+        converged: face.converged,
+    }
+}
+
+/// The signed distance of two convex hulls, and where it is realised.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Distance {
+    /// Above 0 the gap between the hulls, below 0 the depth of penetration (the shortest translation that takes
+    /// them apart), in m.
+    pub distance: f32,
+    /// Unit, from A to B: `point_b - point_a` is `distance * normal`. If they penetrate, moving B by the depth
+    /// along it separates them.
+    pub normal: Vec3,
+    /// The witness point on A, in m: closest to B, or deepest in it.
+    pub point_a: Vec3,
+    /// The witness point on B, in m.
+    pub point_b: Vec3,
+    /// The feature of A that holds `point_a`, as indices into the points of A.
+    pub feature_a: FeaturePoint,
+    /// The feature of B that holds `point_b`.
+    pub feature_b: FeaturePoint,
+    /// Iterations taken, at most 64.
+    pub iterations: u32,
+    /// Whether the answer is certain within rounding. If not, a gap is an upper bound of the true one, and so is a
+    /// depth: the normal still separates, but a shorter way may exist.
+    pub converged: bool,
+}
+
+/// The signed distance of the convex hulls of two point sets, in any order, duplicates and flat sets allowed.
+///
+/// The same sets swapped give the same bits mirrored: A and B exchanged, the normal reversed. (Only of a set and
+/// itself can the mirror image not be told from the original.) Takes at most 64 iterations and says whether that
+/// was enough.
+///
+/// # Errors
+///
+/// [`Error::Invalid`] if a set is empty and [`Error::OutOfRange`] if a coordinate is not finite; the field is
+/// `a`, `b`, or the point, such as `a[3]`.
+pub fn distance(a: &[Vec3], b: &[Vec3]) -> Result<Distance, Error> {
+    check("a", a)?;
+    check("b", b)?;
+    if is_in_order(a, b) { Ok(ordered_distance(a, b)) } else { Ok(ordered_distance(b, a).mirrored()) }
+}
+
+fn check(field: &str, points: &[Vec3]) -> Result<(), Error> {
+    if points.is_empty() {
+        let problem = "it has no points; a convex set needs at least one".to_owned();
+        return Err(Error::Invalid { field: field.to_owned(), problem });
+    }
+    for (i, point) in points.iter().enumerate() {
+        if let Some(value) = point.to_array().into_iter().find(|value| !value.is_finite()) {
+            return Err(Error::OutOfRange {
+                field: format!("{field}[{i}]"),
+                value: value.into(),
+                expected: "a point with finite coordinates",
+            });
+        }
+    }
+    Ok(())
+}
+
+/// An order of point sets, so that a query and its mirror image run the same arithmetic.
+fn is_in_order(a: &[Vec3], b: &[Vec3]) -> bool {
+    let by_coordinate = || {
+        let pairs = a.iter().flat_map(|p| p.to_array()).zip(b.iter().flat_map(|p| p.to_array()));
+        pairs.map(|(x, y)| x.total_cmp(&y)).find(|order| order.is_ne())
+    };
+    match a.len().cmp(&b.len()) {
+        std::cmp::Ordering::Equal => by_coordinate().is_none_or(|order| order.is_lt()),
+        order => order.is_lt(),
+    }
+}
+
+fn ordered_distance(a: &[Vec3], b: &[Vec3]) -> Distance {
+    let mut axis = b[0] - a[0];
+    let (a, b) = (Points(a), Points(b));
+    let gjk = gjk::closest(&a, &b, &mut axis);
+    if gjk.proximity == Proximity::Intersecting {
+        let face = Epa::default().hit_face(&a, &b, &gjk.simplex, axis, MAX_ITERATIONS - gjk.iterations);
+        Distance::penetrating(
+            ContactFeatures::new(&a, &b, &face),
+            gjk.iterations + face.iterations,
+            face.converged,
+        )
+    } else {
+        Distance::separated(&a, &b, &gjk)
+    }
+}
+
+impl Distance {
+    fn penetrating(contact: ContactFeatures, iterations: u32, converged: bool) -> Self {
+        Self {
+            distance: 0.0 - contact.depth, // and not −0 when they just touch
+            normal: contact.normal,
+            point_a: contact.point_a,
+            point_b: contact.point_b,
+            feature_a: contact.a,
+            feature_b: contact.b,
+            iterations,
+            converged,
+        }
+    }
+
+    fn separated(a: &impl Support, b: &impl Support, gjk: &Gjk) -> Self {
+        let mut vertices = [gjk.simplex.vertices().last().copied().unwrap_or_default(); 3];
+        let mut weights = [0.0; 3];
+        for (i, (vertex, weight)) in
+            gjk.simplex.vertices().iter().zip(gjk.simplex.weights()).take(3).enumerate()
+        {
+            (vertices[i], weights[i]) = (*vertex, *weight);
+        }
+        let gap = gjk.separation.length();
+        let sum = |point: &dyn Fn(&CsoVertex) -> DVec3| -> Vec3 {
+            vertices.iter().zip(weights).map(|(v, weight)| point(v) * weight).sum::<DVec3>().as_vec3()
+        };
+        Self {
+            distance: (gap as f32).min(f32::MAX),
+            normal: (-gjk.separation / gap).as_vec3(),
+            point_a: sum(&|v| a.point(v.a)),
+            point_b: sum(&|v| b.point(v.b)),
+            feature_a: FeaturePoint::new(vertices.map(|v| v.a), weights),
+            feature_b: FeaturePoint::new(vertices.map(|v| v.b), weights),
+            iterations: gjk.iterations,
+            converged: gjk.converged,
+        }
+    }
+
+    fn mirrored(self) -> Self {
+        Self {
+            normal: -self.normal,
+            point_a: self.point_b,
+            point_b: self.point_a,
+            feature_a: self.feature_b,
+            feature_b: self.feature_a,
+            ..self
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! Resting bodies are put to sleep, and woken by what touches them (paper, 8: stacked objects).
+
+use glam::Vec3;
+
+use crate::body::Body;
+use crate::collision::Contact;
+use crate::particles::Particles;
+use crate::settings::Sleep;
+
+/// Wakes sleeping bodies that are touched at more than the sleeping speed. What gravity gave the touching body in
+/// this very substep does not count: a body at rest on a sleeping one has it all the time.
+pub(crate) fn wake_touched(
+    bodies: &mut [Body],
+    particles: &Particles,
+    contacts: &[Contact],
+    gravity_step: Vec3,
+    reach: f32,
+) {
+    for contact in contacts {
+        let (a, b) = (contact.body_a as usize, contact.body_b as usize);
+        let (sleeper, mover, patch) = match (bodies[a].rest.asleep, bodies[b].rest.asleep) {
+            (true, false) => (a, b, contact.b),
+            (false, true) => (b, a, Some(contact.a)),
+            _ => continue,
+        };
+        let Some(patch) = patch.filter(|_| bodies[mover].is_awake()) else { continue };
+        let motion = patch.point(&particles.displacement) - gravity_step;
+        if motion.length_squared() > reach * reach {
+            bodies[sleeper].wake();
+        }
+    }
+}
+
+/// Puts bodies to sleep that have drifted slower than `sleep.speed` for `sleep.seconds`, unless they touch one
+/// that has not. Drift rather than speed decides: a body that trembles on the spot is at rest.
+pub(crate) fn put_to_sleep(
+    bodies: &mut [Body],
+    particles: &mut Particles,
+    contacts: &[Contact],
+    sleep: Sleep,
+    dt: f32,
+) {
+    let reach = sleep.speed * sleep.seconds;
+    for body in bodies.iter_mut().filter(|body| body.is_awake()) {
+        let positions = &particles.position[body.particles.clone()];
+        let drifted = |(x, reference): (&Vec3, &Vec3)| x.distance_squared(*reference) > reach * reach;
+        let rest = &mut body.rest;
+        if rest.reference.len() != positions.len() || positions.iter().zip(&rest.reference).any(drifted) {
+            rest.reference.clear();
+            rest.reference.extend_from_slice(positions);
+            rest.still_for = 0.0;
+        } else {
+            rest.still_for += dt;
+        }
+    }
+    let restless = |body: &Body| body.is_awake() && body.rest.still_for < sleep.seconds;
+    let mut may_sleep: Vec<bool> = bodies.iter().map(|body| body.is_awake() && !restless(body)).collect();
+    for contact in contacts {
+        let (a, b) = (contact.body_a as usize, contact.body_b as usize);
+        may_sleep[a] &= !restless(&bodies[b]);
+        may_sleep[b] &= !restless(&bodies[a]);
+    }
+    for (body, _) in bodies.iter_mut().zip(may_sleep).filter(|(_, may_sleep)| *may_sleep) {
+        body.rest.asleep = true;
+        particles.displacement[body.particles.clone()].fill(Vec3::ZERO);
+    }
+}
