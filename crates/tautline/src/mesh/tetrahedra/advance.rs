@@ -11,6 +11,9 @@ use super::predicates::{Face, Tet, faces_of, in_sphere, orient, reversed, tet_cr
 /// Apexes tried for a face, in Delaunay order, before the face is left to the search.
 const TRIES: usize = 24;
 
+/// Counts a loose vertex as used, for good.
+const LOOSE: usize = 1;
+
 /// Faces around what is empty, with their boxes side by side for a fast scan.
 struct Front<'a> {
     points: &'a [DVec3],
@@ -74,9 +77,10 @@ impl<'a> Front<'a> {
     }
 }
 
-/// Tetrahedra that fill the cavity within `faces`, or part of it.
-pub(super) fn advance(points: &[DVec3], faces: &BTreeSet<Face>) -> Vec<Tet> {
+/// Tetrahedra that fill the cavity within `faces`, or part of it. They may use the `loose` vertices inside.
+pub(super) fn advance(points: &[DVec3], faces: &BTreeSet<Face>, loose: &[u32]) -> Vec<Tet> {
     let mut front = Front::new(points, faces);
+    front.uses.extend(loose.iter().map(|&v| (v, LOOSE)));
     let mut queue: VecDeque<Face> = faces.iter().copied().collect();
     let mut placed = Vec::new();
     while let Some(face) = queue.pop_front() {

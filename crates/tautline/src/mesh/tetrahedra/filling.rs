@@ -99,15 +99,33 @@ impl Filling {
     /// also border on another empty part stay.
     pub(super) fn widened(&self, cavity: &Cavity) -> Cavity {
         let mut wide = cavity.clone();
-        let beyond = cavity.faces.iter().filter_map(|&f| self.owner.get(&reversed(f)));
-        for &t in beyond {
-            let Some(tet) = self.tets[t] else { continue };
-            let borders_other = |f: Face| self.front.contains(&f) && !cavity.faces.contains(&f);
-            if !faces_of(&tet).iter().any(|&f| borders_other(reversed(f))) && wide.tets.insert(t) {
-                open(&mut wide.faces, &tet);
+        for &face in &cavity.faces {
+            if wide.faces.contains(&face) {
+                self.widen_across(&mut wide, face);
             }
         }
         wide
+    }
+
+    /// Adds the tetrahedron beyond one face; `false` if there is none, or it borders on another empty
+    /// part.
+    pub(super) fn widen_across(&self, cavity: &mut Cavity, face: Face) -> bool {
+        let Some((t, tet)) = self.owner.get(&reversed(face)).and_then(|&t| Some((t, self.tets[t]?))) else {
+            return false;
+        };
+        let borders_other = |f: Face| self.front.contains(&f) && !cavity.faces.contains(&f);
+        let free = !faces_of(&tet).iter().any(|&f| borders_other(reversed(f)));
+        if free && cavity.tets.insert(t) {
+            open(&mut cavity.faces, &tet);
+        }
+        free
+    }
+
+    /// Corners of the cavity's tetrahedra that none of its faces has.
+    pub(super) fn loose_vertices(&self, cavity: &Cavity) -> Vec<u32> {
+        let corners: BTreeSet<u32> = cavity.tets.iter().filter_map(|&t| self.tets[t]).flatten().collect();
+        let bound = vertices(&cavity.faces);
+        corners.into_iter().filter(|v| bound.binary_search(v).is_err()).collect()
     }
 
     /// The separate empty parts. Parts that lie within another's box without enclosing a volume of their
@@ -138,18 +156,19 @@ pub(super) fn vertices(faces: &BTreeSet<Face>) -> Vec<u32> {
     corners.into_iter().collect()
 }
 
-/// Faces that hang together by corners.
+/// Faces that hang together by edges.
 fn components(faces: &BTreeSet<Face>) -> Vec<BTreeSet<Face>> {
-    let mut around: BTreeMap<u32, Vec<Face>> = BTreeMap::new();
-    for face in faces {
-        face.iter().for_each(|&v| around.entry(v).or_default().push(*face));
+    let edges = |[a, b, c]: Face| [[a, b], [b, c], [c, a]].map(|[p, q]| [p.min(q), p.max(q)]);
+    let mut around: BTreeMap<[u32; 2], Vec<Face>> = BTreeMap::new();
+    for &face in faces {
+        edges(face).into_iter().for_each(|e| around.entry(e).or_default().push(face));
     }
     let mut parts = Vec::new();
     while let Some((_, seed)) = around.pop_first() {
         let (mut part, mut stack) = (BTreeSet::new(), seed);
         while let Some(face) = stack.pop() {
             if part.insert(face) {
-                stack.extend(face.iter().filter_map(|v| around.remove(v)).flatten());
+                stack.extend(edges(face).iter().filter_map(|e| around.remove(e)).flatten());
             }
         }
         parts.push(part);

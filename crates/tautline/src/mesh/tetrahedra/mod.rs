@@ -18,11 +18,14 @@ mod search;
 mod steiner;
 mod surface;
 
+use std::collections::BTreeSet;
+
 use glam::{DVec3, Vec3};
 
 use super::TriMesh;
 use crate::{Error, MeshDefect};
 use filling::{Cavity, Filling};
+use predicates::Face;
 
 /// The inside of a closed surface as tetrahedra.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,6 +40,8 @@ pub struct Tetrahedra {
 
 /// How often a cavity is widened by the tetrahedra around it before an interior point is accepted.
 const WIDENINGS: usize = 4;
+/// How often points are seeded before the mesh is refused.
+const MAX_SEEDINGS: usize = 40;
 
 /// Divides the inside of a closed mesh into tetrahedra. No vertex of the surface is moved or added, and
 /// every triangle is a face of exactly one tetrahedron. The same mesh gives the same result to the bit.
@@ -53,10 +58,10 @@ pub fn tetrahedralise(mesh: &TriMesh) -> Result<Tetrahedra, Error> {
     for tet in conforming::conforming(&points, &surface, &delaunay) {
         filling.place(tet);
     }
-    for tet in advance::advance(&points, filling.front()) {
+    for tet in advance::advance(&points, filling.front(), &[]) {
         filling.place(tet);
     }
-    fill_cavities(&mut points, &mut filling)?;
+    fill_cavities(&mut points, &mut filling, &surface.into_iter().collect())?;
     let first_interior = mesh.positions.len();
     remove_interior_points(&mut points, &mut filling, first_interior);
     Ok(Tetrahedra {
@@ -66,28 +71,33 @@ pub fn tetrahedralise(mesh: &TriMesh) -> Result<Tetrahedra, Error> {
     })
 }
 
-/// Fills what the advancing front left, cavity by cavity.
-fn fill_cavities(points: &mut Vec<DVec3>, filling: &mut Filling) -> Result<(), Error> {
-    let mut interior_points_left = 64 + points.len();
+/// Fills what the advancing front left, cavity by cavity: without a new point if possible, or with one;
+/// else a wide neighbourhood is seeded with points and the front advances through it again.
+fn fill_cavities(
+    points: &mut Vec<DVec3>,
+    filling: &mut Filling,
+    surface: &BTreeSet<Face>,
+) -> Result<(), Error> {
+    let mut seedings = 0;
     while let Some(cavity) = filling.cavities(points).into_iter().min_by_key(|cavity| cavity.faces.len()) {
         let rings = rings(filling, &cavity);
-        if let Some((ring, tets)) =
-            rings.iter().find_map(|r| search::search(points, &r.faces).map(|t| (r, t)))
-        {
-            filling.replace(ring, tets);
+        let searched = rings.iter().find_map(|r| Some((r.clone(), search::search(points, &r.faces)?)));
+        if let Some((ring, tets)) = searched.or_else(|| steiner::star(points, filling, &cavity)) {
+            filling.replace(&ring, tets);
             continue;
         }
-        if interior_points_left == 0 {
+        if seedings == MAX_SEEDINGS {
             return Err(unfilled(points, &cavity));
         }
-        interior_points_left -= 1;
-        if let Some((ring, tets)) = rings.iter().find_map(|r| steiner::star(points, &r.faces).map(|t| (r, t)))
-        {
-            filling.replace(ring, tets);
-            continue;
-        }
-        let tets = steiner::partial_star(points, &cavity.faces).ok_or_else(|| unfilled(points, &cavity))?;
-        filling.replace(&cavity, tets);
+        let ring = &rings[1 + seedings % 2];
+        let first = points.len() as u32;
+        let bare: Vec<Face> = cavity.faces.intersection(surface).copied().collect();
+        steiner::seed(points, surface, &bare, [0.5, 0.3, 0.7, 0.1][seedings / 2 % 4]);
+        let mut loose = filling.loose_vertices(ring);
+        loose.extend(first..points.len() as u32);
+        let tets = advance::advance(points, &ring.faces, &loose);
+        filling.replace(ring, tets);
+        seedings += 1;
     }
     Ok(())
 }

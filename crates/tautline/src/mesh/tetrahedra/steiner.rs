@@ -5,23 +5,62 @@ use std::collections::BTreeSet;
 
 use glam::DVec3;
 
-use super::predicates::{Face, Tet, orient, tet_crosses_face, tet_on};
+use super::filling::{Cavity, Filling};
+use super::predicates::{Face, Tet, orient, tet_on};
 
 /// Steps of the search for a point that sees all faces.
 const KERNEL_STEPS: u32 = 2000;
 /// Faces from which a point that sees many is looked for.
-const MAX_SEEDS: usize = 48;
+const MAX_SEEDS: usize = 8;
+/// Stars have fewer faces than this.
+const MAX_STAR: usize = 400;
 
-/// Adds a point that sees every face of the cavity, and joins it to them; `None` if none was found.
-pub(super) fn star(points: &mut Vec<DVec3>, faces: &BTreeSet<Face>) -> Option<Vec<Tet>> {
+/// Adds a point that sees every face of the cavity, widened where it does not, and joins it to them;
+/// `None` if none was found.
+pub(super) fn star(
+    points: &mut Vec<DVec3>,
+    filling: &Filling,
+    cavity: &Cavity,
+) -> Option<(Cavity, Vec<Tet>)> {
     let apex = points.len() as u32;
-    points.push(kernel_point(points, faces)?.as_vec3().as_dvec3());
-    let tets: Vec<Tet> = faces.iter().map(|&f| tet_on(f, apex)).collect();
-    if faces.iter().all(|&f| orient(points, f, apex) < 0.0) {
-        return Some(tets);
+    let kernel = kernel_point(points, &cavity.faces);
+    let stride = cavity.faces.len().div_ceil(MAX_SEEDS);
+    let seeds: Vec<Face> = cavity.faces.iter().copied().step_by(stride).collect();
+    let chords = seeds.iter().map(|&f| chord(points, &cavity.faces, f, 0.5));
+    let candidates: Vec<DVec3> = kernel.into_iter().chain(chords).collect();
+    let mut best: Option<(Cavity, DVec3)> = None;
+    for candidate in candidates {
+        let point = candidate.as_vec3().as_dvec3();
+        points.push(point);
+        let fewest = best.as_ref().map_or(MAX_STAR, |(star, _)| star.faces.len());
+        if let Some(star) = star_shaped(points, filling, cavity, apex, fewest) {
+            best = Some((star, point));
+        }
+        points.pop();
     }
-    points.pop();
-    None
+    let (cavity, point) = best?;
+    points.push(point);
+    let tets = cavity.faces.iter().map(|&f| tet_on(f, apex)).collect();
+    Some((cavity, tets))
+}
+
+/// Widens the cavity across faces that `apex` does not see until it sees all, and they are fewer than
+/// `limit`.
+fn star_shaped(
+    points: &[DVec3],
+    filling: &Filling,
+    from: &Cavity,
+    apex: u32,
+    limit: usize,
+) -> Option<Cavity> {
+    let mut cavity = from.clone();
+    let is_hidden = |f: &Face| f.contains(&apex) || orient(points, *f, apex) >= 0.0;
+    while let Some(&hidden) = cavity.faces.iter().find(|f| is_hidden(f)) {
+        if cavity.faces.len() > 2 * limit || !filling.widen_across(&mut cavity, hidden) {
+            return None;
+        }
+    }
+    (cavity.faces.len() < limit).then_some(cavity)
 }
 
 /// The point deepest behind the planes of all faces, roughly: from the middle, step after step away from
@@ -48,32 +87,24 @@ fn kernel_point(points: &[DVec3], faces: &BTreeSet<Face>) -> Option<DVec3> {
     best.1
 }
 
-/// Adds a point that sees as many faces of the cavity as possible, and joins it to those; `None` if no
-/// point was found that sees any.
-pub(super) fn partial_star(points: &mut Vec<DVec3>, faces: &BTreeSet<Face>) -> Option<Vec<Tet>> {
-    let apex = points.len() as u32;
-    let mut best: (Vec<Tet>, DVec3) = (Vec::new(), DVec3::ZERO);
-    let stride = faces.len().div_ceil(MAX_SEEDS);
-    for &seed in faces.iter().step_by(stride) {
-        let corners = seed.map(|v| points[v as usize]);
-        let [a, b, c] = corners;
-        let (middle, normal) = ((a + b + c) / 3.0, (b - a).cross(c - a).normalize_or_zero());
-        let depth = depth_below(points, faces, middle, -normal);
-        for share in [0.5, 0.1] {
-            points.push((middle - normal * depth * share).as_vec3().as_dvec3());
-            let seen = visible(points, faces, apex);
-            let candidate = points.pop()?;
-            if seen.len() > best.0.len() {
-                best = (seen, candidate);
-            }
+/// Points half way (or another `share`) through the solid behind the given faces, well apart.
+pub(super) fn seed(points: &mut Vec<DVec3>, surface: &BTreeSet<Face>, faces: &[Face], share: f64) {
+    let first = points.len();
+    for &face in faces {
+        let middle = face.iter().map(|&v| points[v as usize]).sum::<DVec3>() / 3.0;
+        let point = chord(points, surface, face, share).as_vec3().as_dvec3();
+        let apart = 0.5 * point.distance(middle);
+        if points[first..].iter().all(|p| p.distance(point) > apart) {
+            points.push(point);
         }
     }
-    let (tets, point) = best;
-    if tets.is_empty() {
-        return None;
-    }
-    points.push(point);
-    Some(tets)
+}
+
+/// The point at a share of the way from the face's middle, straight inwards, to the next face.
+fn chord(points: &[DVec3], faces: &BTreeSet<Face>, face: Face, share: f64) -> DVec3 {
+    let [a, b, c] = face.map(|v| points[v as usize]);
+    let (middle, normal) = ((a + b + c) / 3.0, (b - a).cross(c - a).normalize_or_zero());
+    middle - normal * (share * depth_below(points, faces, middle, -normal))
 }
 
 /// How far a ray runs before it meets a face from inside.
@@ -86,10 +117,4 @@ fn depth_below(points: &[DVec3], faces: &BTreeSet<Face>, from: DVec3, direction:
         (within && direction.dot(normal) > 0.0 && distance > 0.0).then_some(distance)
     };
     faces.iter().filter_map(hit).fold(f64::INFINITY, f64::min).min(1e30)
-}
-
-fn visible(points: &[DVec3], faces: &BTreeSet<Face>, apex: u32) -> Vec<Tet> {
-    let inward = faces.iter().filter(|f| orient(points, **f, apex) < 0.0);
-    let tets = inward.map(|&f| tet_on(f, apex));
-    tets.filter(|tet| !faces.iter().any(|&g| tet_crosses_face(points, tet, g))).collect()
 }
