@@ -2,6 +2,9 @@
 
 pub mod document;
 mod error;
+mod load;
+pub mod mesh_file;
 pub mod recording;
 
 pub use error::{Error, ParseError, Problem};
+pub use load::load;
