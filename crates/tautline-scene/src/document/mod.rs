@@ -1,8 +1,8 @@
 //! The scene document: what a file says about a scene, versioned, every field with a default.
 //!
 //! Axes are right-handed with Y up; lengths are in metres, masses in kilograms, times in seconds, angles in
-//! degrees where the name says so. A document is read by [`parse`], judged by [`Scene::check`] and described to
-//! editors by [`json_schema`]. Nothing here knows a world.
+//! degrees where the name says so. A document is read by [`parse`], judged by [`Scene::check`] and described
+//! to editors by [`json_schema`]. Nothing here knows a world.
 
 mod body;
 mod check;

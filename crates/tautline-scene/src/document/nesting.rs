@@ -1,5 +1,5 @@
-//! How deeply a JSON5 text nests, told without recursion: its parser recurses without a limit of its own, so a
-//! text of brackets would overflow the stack. (The JSON and TOML parsers have limits.)
+//! How deeply a JSON5 text nests, told without recursion: its parser recurses without a limit of its own, so
+//! a text of brackets would overflow the stack. (The JSON and TOML parsers have limits.)
 
 use super::limits;
 

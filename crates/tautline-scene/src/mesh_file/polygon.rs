@@ -5,8 +5,8 @@ use tautline::Vec3;
 /// Corners of a face that is cut ear by ear, which takes the cube of their number at worst.
 const MOST_CORNERS: usize = 256;
 
-/// Triangles with the polygon's corners and its direction of turning. A convex polygon becomes a fan around its
-/// first corner.
+/// Triangles with the polygon's corners and its direction of turning. A convex polygon becomes a fan around
+/// its first corner.
 pub(super) fn triangulate(positions: &[Vec3], corners: &[u32]) -> Result<Vec<[u32; 3]>, String> {
     if corners.len() < 3 {
         return Err(format!("a face of {} corners is none: at least 3", corners.len()));
