@@ -3,7 +3,7 @@
 /// Bytes of a scene or mesh file.
 pub const FILE_BYTES: u64 = 64 << 20;
 /// Bodies of a scene.
-pub const BODIES: usize = 100_000;
+pub const BODIES: usize = 50_000;
 /// Particles of a scene, over all bodies.
 pub const PARTICLES: u64 = 1_000_000;
 /// Triangles of a scene, over all meshes that are given as triangles.
