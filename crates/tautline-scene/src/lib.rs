@@ -1,3 +1,10 @@
 //! Scene documents, the registry of named scenes, mesh files in and recordings out.
 
+pub mod document;
+mod error;
+mod load;
+pub mod mesh_file;
 pub mod recording;
+
+pub use error::{Error, ParseError, Problem};
+pub use load::load;

@@ -1,0 +1,293 @@
+//! The bodies of a scene.
+
+use std::fmt;
+
+use schemars::JsonSchema;
+use serde::de::{Deserializer, Error, SeqAccess, Visitor};
+use serde::{Deserialize, Serialize};
+
+use super::limits;
+use super::shape::{Shape, Surface, Thread};
+use super::value::{Color, Pin, RopeEnd, Rotation, SheetPlace};
+
+/// One thing in the scene.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Body {
+    /// A solid that keeps its shape.
+    Rigid(Rigid),
+    /// A sheet.
+    Cloth(Cloth),
+    /// A rope.
+    Rope(Rope),
+    /// An unmoving plane with everything behind it solid.
+    HalfSpace(HalfSpace),
+    /// The inside of an unmoving box.
+    Room(Room),
+}
+
+/// A solid that keeps its shape.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Rigid {
+    /// A name of its own, if any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Its shape, in its own frame.
+    pub shape: Shape,
+    /// Where its frame is, in m.
+    pub position: [f32; 3],
+    /// How its frame is turned.
+    pub rotation: Rotation,
+    /// Velocity, in m/s.
+    pub velocity: [f32; 3],
+    /// Angular velocity about the centre of mass, in rad/s.
+    pub angular_velocity: [f32; 3],
+    /// Mass, in kg. Either this or `density`; without both the density is 1000 kg/m³.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mass: Option<f32>,
+    /// Density, in kg/m³.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub density: Option<f32>,
+    /// Coefficient of friction, 0 being none.
+    pub friction: f32,
+    /// Whether it never moves.
+    pub fixed: bool,
+    /// Colour; chosen by its place in the scene if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub color: Option<Color>,
+}
+
+impl Default for Rigid {
+    /// A cube of 1 m.
+    fn default() -> Self {
+        Self {
+            name: None,
+            shape: Shape::default(),
+            position: [0.0; 3],
+            rotation: Rotation::default(),
+            velocity: [0.0; 3],
+            angular_velocity: [0.0; 3],
+            mass: None,
+            density: None,
+            friction: 0.5,
+            fixed: false,
+            color: None,
+        }
+    }
+}
+
+/// A sheet. A grid lies in the plane y = 0 of its own frame, around the origin.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Cloth {
+    /// A name of its own, if any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Its rest shape, in its own frame.
+    pub surface: Surface,
+    /// Where its frame is, in m.
+    pub position: [f32; 3],
+    /// How its frame is turned.
+    pub rotation: Rotation,
+    /// Velocity, in m/s.
+    pub velocity: [f32; 3],
+    /// Mass of the whole sheet, in kg.
+    pub mass: f32,
+    /// Particles that never move: vertex indices, or places of a grid.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub pins: Vec<Pin<SheetPlace>>,
+    /// Coefficient of friction, 0 being none.
+    pub friction: f32,
+    /// Whether it collides with itself.
+    pub self_collision: bool,
+    /// Compliance of its resistance to bending, in rad²/J, 0 being rigid; none if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bending: Option<f32>,
+    /// Colour; chosen by its place in the scene if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub color: Option<Color>,
+}
+
+impl Default for Cloth {
+    /// 20 × 20 particles over 1 m × 1 m, 1 kg.
+    fn default() -> Self {
+        Self {
+            name: None,
+            surface: Surface::default(),
+            position: [0.0; 3],
+            rotation: Rotation::default(),
+            velocity: [0.0; 3],
+            mass: 1.0,
+            pins: Vec::new(),
+            friction: 0.5,
+            self_collision: true,
+            bending: None,
+            color: None,
+        }
+    }
+}
+
+/// A rope.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Rope {
+    /// A name of its own, if any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Its rest shape, in the world's frame.
+    pub path: Thread,
+    /// Radius, in m.
+    pub radius: f32,
+    /// Velocity, in m/s.
+    pub velocity: [f32; 3],
+    /// Mass of the whole rope, in kg.
+    pub mass: f32,
+    /// Particles that never move: indices, or `first` and `last`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub pins: Vec<Pin<RopeEnd>>,
+    /// Coefficient of friction, 0 being none.
+    pub friction: f32,
+    /// Compliance of its resistance to bending, in rad²/J, 0 being rigid; none if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bending: Option<f32>,
+    /// Colour; chosen by its place in the scene if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub color: Option<Color>,
+}
+
+impl Default for Rope {
+    /// 50 segments over 2 m, 2 cm thick, 1 kg.
+    fn default() -> Self {
+        Self {
+            name: None,
+            path: Thread::default(),
+            radius: 0.01,
+            velocity: [0.0; 3],
+            mass: 1.0,
+            pins: Vec::new(),
+            friction: 0.5,
+            bending: None,
+            color: None,
+        }
+    }
+}
+
+/// An unmoving plane: the points x with normal · x = offset. What is behind it is solid.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct HalfSpace {
+    /// A name of its own, if any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Out of the solid; of any length above 0.
+    pub normal: [f32; 3],
+    /// Distance of the plane from the origin along the normal, in m.
+    pub offset: f32,
+    /// Coefficient of friction, 0 being none.
+    pub friction: f32,
+    /// Colour; a grey if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub color: Option<Color>,
+}
+
+impl Default for HalfSpace {
+    /// The floor at y = 0.
+    fn default() -> Self {
+        Self { name: None, normal: [0.0, 1.0, 0.0], offset: 0.0, friction: 0.5, color: None }
+    }
+}
+
+/// The inside of an unmoving box: six half-spaces, drawn as walls.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Room {
+    /// A name of its own, if any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Inner corner with the smallest coordinates, in m.
+    pub min: [f32; 3],
+    /// Inner corner with the largest coordinates, in m.
+    pub max: [f32; 3],
+    /// Coefficient of friction, 0 being none.
+    pub friction: f32,
+    /// Colour; a grey if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub color: Option<Color>,
+}
+
+impl Default for Room {
+    /// 4 m × 4 m × 4 m on the floor y = 0.
+    fn default() -> Self {
+        Self { name: None, min: [-2.0, 0.0, -2.0], max: [2.0, 4.0, 2.0], friction: 0.5, color: None }
+    }
+}
+
+impl Body {
+    /// Its name, if it has one of its own.
+    pub fn name(&self) -> Option<&str> {
+        match self {
+            Self::Rigid(Rigid { name, .. })
+            | Self::Cloth(Cloth { name, .. })
+            | Self::Rope(Rope { name, .. })
+            | Self::HalfSpace(HalfSpace { name, .. })
+            | Self::Room(Room { name, .. }) => name.as_deref(),
+        }
+    }
+
+    /// The word that stands for it in a document, and in the path of its fields.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Rigid(_) => "rigid",
+            Self::Cloth(_) => "cloth",
+            Self::Rope(_) => "rope",
+            Self::HalfSpace(_) => "half_space",
+            Self::Room(_) => "room",
+        }
+    }
+
+    /// How many triangles it gives one by one.
+    pub fn triangle_count(&self) -> u64 {
+        match self {
+            Self::Rigid(Rigid { shape: Shape::Mesh(mesh), .. })
+            | Self::Cloth(Cloth { surface: Surface::Mesh(mesh), .. }) => mesh.triangles.len() as u64,
+            _ => 0,
+        }
+    }
+
+    /// How many particles it asks for at most; 0 for what has none, and for a mesh file that is not loaded.
+    pub fn particle_count(&self) -> u64 {
+        match self {
+            Self::Rigid(rigid) => rigid.shape.vertex_count(),
+            Self::Cloth(cloth) => cloth.surface.vertex_count(),
+            Self::Rope(rope) => rope.path.point_count(),
+            Self::HalfSpace(_) | Self::Room(_) => 0,
+        }
+    }
+}
+
+/// Reads a list of bodies and stops at the first one too many, so that a long list takes no memory.
+pub(super) fn limited<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Body>, D::Error> {
+    struct Bodies;
+
+    impl<'de> Visitor<'de> for Bodies {
+        type Value = Vec<Body>;
+
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            write!(f, "a list of at most {} bodies", limits::BODIES)
+        }
+
+        fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Self::Value, A::Error> {
+            let mut bodies = Vec::new();
+            while let Some(body) = list.next_element()? {
+                if bodies.len() == limits::BODIES {
+                    return Err(A::Error::custom(format!("there are more than {} bodies", limits::BODIES)));
+                }
+                bodies.push(body);
+            }
+            Ok(bodies)
+        }
+    }
+
+    deserializer.deserialize_seq(Bodies)
+}

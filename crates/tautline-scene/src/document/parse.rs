@@ -1,0 +1,117 @@
+//! Text to document, in three notations, with the place of the first thing that is not one.
+
+use std::path::Path;
+
+use serde::Deserializer;
+use serde::de::IgnoredAny;
+
+use super::{Scene, limits, nesting};
+use crate::error::{Error, ParseError};
+
+/// A notation for documents.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// JSON.
+    Json,
+    /// JSON with comments and trailing commas.
+    Json5,
+    /// TOML.
+    Toml,
+}
+
+impl Format {
+    /// The notation that a file's extension names, in any case: `json`, `json5` or `toml`.
+    pub fn of_path(path: &Path) -> Option<Self> {
+        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+            "json" => Some(Self::Json),
+            "json5" => Some(Self::Json5),
+            "toml" => Some(Self::Toml),
+            _ => None,
+        }
+    }
+}
+
+/// Reads a document. Its values are not judged: that is [`Scene::check`].
+///
+/// # Errors
+/// [`Error::Parse`] with the line, the column and the path of the field.
+pub fn parse(text: &str, format: Format) -> Result<Scene, Error> {
+    if text.len() as u64 > limits::FILE_BYTES {
+        let message = format!("{} bytes are more than {}", text.len(), limits::FILE_BYTES);
+        return Err(refusal("", (1, 1), message));
+    }
+    match format {
+        Format::Json => parse_json(text),
+        Format::Json5 => parse_json5(text),
+        Format::Toml => parse_toml(text),
+    }
+}
+
+fn parse_json(text: &str) -> Result<Scene, Error> {
+    let mut deserializer = serde_json::Deserializer::from_str(text);
+    let place = |error: &serde_json::Error| (error.line(), error.column().max(1));
+    let message = |error: &serde_json::Error| {
+        let text = error.to_string();
+        let place = format!(" at line {} column {}", error.line(), error.column());
+        text.strip_suffix(&place).unwrap_or(&text).to_owned()
+    };
+    let scene = at_path(&mut deserializer, place, message)?;
+    deserializer.end().map_err(|error| refusal("", place(&error), message(&error)))?;
+    Ok(scene)
+}
+
+fn parse_json5(text: &str) -> Result<Scene, Error> {
+    if let Some(offset) = nesting::too_deep(text) {
+        let message = format!("it nests more than {} levels deep", limits::NESTING);
+        return Err(refusal("", line_and_column(text, offset), message));
+    }
+    // Where the text ends too early: the start of what is not closed, or without a position.
+    let place = |error: &json5::Error| {
+        error.position().map_or_else(|| line_and_column(text, text.len()), |at| (at.line + 1, at.column + 1))
+    };
+    let message = |error: &json5::Error| match error.code() {
+        Some(code) => code.to_string(),
+        None => {
+            let text = error.to_string();
+            let place = error.position().map_or_else(String::new, |at| format!(" at {at}"));
+            text.strip_suffix(&place).unwrap_or(&text).to_owned()
+        }
+    };
+    // The whole text first: only this entry looks for something after the end of the document.
+    json5::from_str::<IgnoredAny>(text).map_err(|error| refusal("", place(&error), message(&error)))?;
+    at_path(&mut json5::Deserializer::from_str(text), place, message)
+}
+
+fn parse_toml(text: &str) -> Result<Scene, Error> {
+    let place = |error: &toml::de::Error| line_and_column(text, error.span().map_or(0, |span| span.start));
+    let message = |error: &toml::de::Error| error.message().to_owned();
+    let deserializer =
+        toml::Deserializer::parse(text).map_err(|error| refusal("", place(&error), message(&error)))?;
+    at_path(deserializer, place, message)
+}
+
+/// Reads a document and tells the path of the field that could not be read.
+fn at_path<'de, D: Deserializer<'de>>(
+    deserializer: D,
+    place: impl Fn(&D::Error) -> (usize, usize),
+    message: impl Fn(&D::Error) -> String,
+) -> Result<Scene, Error> {
+    serde_path_to_error::deserialize(deserializer).map_err(|error| {
+        let path = error.path().to_string();
+        // `.` is the root, `?` a key that could not be read.
+        let field = path.trim_end_matches('?').trim_end_matches('.');
+        refusal(field, place(error.inner()), message(error.inner()))
+    })
+}
+
+fn refusal(field: &str, (line, column): (usize, usize), message: String) -> Error {
+    Error::Parse(Box::new(ParseError { file: None, field: field.to_owned(), line, column, message }))
+}
+
+/// Line and column, from 1, of a byte; the column counts characters.
+fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
+    let before = text.get(..offset).unwrap_or(text);
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    let column = before.get(line_start..).unwrap_or_default().chars().count() + 1;
+    (before.matches('\n').count() + 1, column)
+}

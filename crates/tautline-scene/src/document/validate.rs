@@ -1,0 +1,302 @@
+//! Judges a document: every value that is wrong, with its path.
+
+use std::collections::BTreeMap;
+
+use super::check::{COORDINATE, Checker, FINITE, LENGTH, MASS, NOT_NEGATIVE, OPENING, POSITIVE, SHARE, STEP};
+use super::{
+    AxisAngle, Body, Bounds, Camera, Cloth, HalfSpace, MeshFile, MeshSource, Pin, Rigid, Room, Rope, RopeEnd,
+    Rotation, Scene, Settings, Shape, SheetPlace, Sleep, Surface, Thread, VERSION, limits,
+};
+use crate::error::{Error, Problem};
+
+impl Scene {
+    /// Refuses a document whose values a world could not be made of.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] with [`Scene::problems`].
+    pub fn check(&self) -> Result<(), Error> {
+        let problems = self.problems();
+        if problems.is_empty() { Ok(()) } else { Err(Error::Invalid(problems)) }
+    }
+
+    /// Every problem with the document's values, up to [`limits::PROBLEMS`], in its order; none if it is
+    /// right. Takes no memory for what is too large. A mesh file is not opened.
+    pub fn problems(&self) -> Vec<Problem> {
+        let mut c = Checker::default();
+        c.require(self.tautline == VERSION, "tautline", || format!("{} is not {VERSION}", self.tautline));
+        check_name(&mut c, &self.name);
+        c.number("seconds", self.seconds, POSITIVE);
+        c.number("dt", self.dt, STEP);
+        let too_many = self.seconds / self.dt > limits::STEPS && self.seconds.is_finite() && self.dt > 0.0;
+        c.require(!too_many, "seconds", || {
+            format!("{} s are more than {} steps of {} s", self.seconds, limits::STEPS, self.dt)
+        });
+        c.count("record_every", self.record_every, 1, 1_000_000);
+        c.within("settings", |c| check_settings(c, &self.settings));
+        check_bodies(&mut c, &self.bodies);
+        if let Some(Camera { eye, target, fov }) = &self.camera {
+            c.within("camera", |c| {
+                c.vector("eye", eye, COORDINATE);
+                c.vector("target", target, COORDINATE);
+                c.number("fov", *fov, OPENING);
+                c.require(eye != target, "target", || "it is where the eye is".to_owned());
+            });
+        }
+        if let Some(Bounds { min, max }) = &self.bounds {
+            c.within("bounds", |c| check_box(c, min, max));
+        }
+        c.into_problems()
+    }
+}
+
+/// The name becomes part of file names.
+fn check_name(c: &mut Checker, name: &str) {
+    let fits = !name.is_empty() && name.len() <= 100 && !name.starts_with('.');
+    let plain = name.chars().all(|ch| ch.is_alphanumeric() || "-_. ".contains(ch));
+    c.require(fits && plain, "name", || {
+        format!("{name:?} is not a name of letters, digits, spaces and -_. that files can have")
+    });
+}
+
+fn check_settings(c: &mut Checker, settings: &Settings) {
+    c.vector("gravity", &settings.gravity, COORDINATE);
+    if let Some(substeps) = settings.substeps {
+        c.count("substeps", substeps, 1, 1000);
+    }
+    if let Some(sweeps) = settings.sweeps {
+        c.count("sweeps", sweeps, 1, 1000);
+    }
+    c.optional("tolerance", settings.tolerance, SHARE);
+    c.number("damping", settings.damping, SHARE);
+    if let Sleep::After { speed, seconds } = settings.sleep {
+        c.within("sleep.after", |c| {
+            c.number("speed", speed, POSITIVE);
+            c.number("seconds", seconds, NOT_NEGATIVE);
+        });
+    }
+}
+
+fn check_bodies(c: &mut Checker, bodies: &[Body]) {
+    if bodies.len() > limits::BODIES {
+        c.problem("bodies", format!("{} bodies are more than {}", bodies.len(), limits::BODIES));
+        return;
+    }
+    let mut names = BTreeMap::new();
+    for (i, body) in bodies.iter().enumerate() {
+        c.within(format_args!("bodies[{i}].{}", body.kind()), |c| {
+            if let Some(name) = body.name() {
+                let first = *names.entry(name).or_insert(i);
+                c.require(first == i, "name", || format!("{name:?} is the name of bodies[{first}] too"));
+            }
+            check_body(c, body);
+        });
+    }
+    check_total(c, "particles", bodies.iter().map(Body::particle_count), limits::PARTICLES);
+    check_total(c, "triangles", bodies.iter().map(Body::triangle_count), limits::TRIANGLES);
+}
+
+fn check_total(c: &mut Checker, what: &str, counts: impl Iterator<Item = u64>, most: u64) {
+    let total = counts.fold(0, u64::saturating_add);
+    c.require(total <= most, "bodies", || format!("they have {total} {what}, more than {most}"));
+}
+
+fn check_body(c: &mut Checker, body: &Body) {
+    match body {
+        Body::Rigid(rigid) => check_rigid(c, rigid),
+        Body::Cloth(cloth) => check_cloth(c, cloth),
+        Body::Rope(rope) => check_rope(c, rope),
+        Body::HalfSpace(HalfSpace { normal, offset, friction, .. }) => {
+            c.direction("normal", normal);
+            c.number("offset", *offset, COORDINATE);
+            c.number("friction", *friction, NOT_NEGATIVE);
+        }
+        Body::Room(Room { min, max, friction, .. }) => {
+            check_box(c, min, max);
+            c.number("friction", *friction, NOT_NEGATIVE);
+        }
+    }
+}
+
+fn check_rigid(c: &mut Checker, rigid: &Rigid) {
+    c.within("shape", |c| check_shape(c, &rigid.shape));
+    c.vector("position", &rigid.position, COORDINATE);
+    check_rotation(c, &rigid.rotation);
+    c.vector("velocity", &rigid.velocity, COORDINATE);
+    c.vector("angular_velocity", &rigid.angular_velocity, COORDINATE);
+    c.optional("mass", rigid.mass, MASS);
+    c.optional("density", rigid.density, MASS);
+    c.require(rigid.mass.is_none() || rigid.density.is_none(), "density", || {
+        "there is a mass already: give one of the two".to_owned()
+    });
+    c.number("friction", rigid.friction, NOT_NEGATIVE);
+}
+
+fn check_cloth(c: &mut Checker, cloth: &Cloth) {
+    c.within("surface", |c| check_surface(c, &cloth.surface));
+    c.vector("position", &cloth.position, COORDINATE);
+    check_rotation(c, &cloth.rotation);
+    c.vector("velocity", &cloth.velocity, COORDINATE);
+    c.number("mass", cloth.mass, MASS);
+    let is_grid = matches!(cloth.surface, Surface::Grid { .. });
+    let count = match cloth.surface {
+        Surface::File(_) => u64::MAX,
+        _ => cloth.surface.vertex_count(),
+    };
+    for (k, pin) in cloth.pins.iter().enumerate() {
+        check_pin(c, k, pin, count);
+        if let Pin::Place(place) = pin {
+            c.require(is_grid, format_args!("pins[{k}]"), || {
+                format!("{} is a place of a grid, and this surface is none: use indices", place_name(place))
+            });
+        }
+    }
+    c.number("friction", cloth.friction, NOT_NEGATIVE);
+    c.optional("bending", cloth.bending, NOT_NEGATIVE);
+}
+
+fn check_rope(c: &mut Checker, rope: &Rope) {
+    match &rope.path {
+        Thread::Line { from, to, segments } => c.within("path.line", |c| {
+            c.vector("from", from, COORDINATE);
+            c.vector("to", to, COORDINATE);
+            c.require(from != to, "to", || "it is where the rope begins".to_owned());
+            c.count("segments", *segments, 1, limits::PARTICLES as u32 - 1);
+        }),
+        Thread::Points(points) => {
+            c.points("path.points", points);
+            c.require(points.len() >= 2, "path.points", || {
+                format!("{} points make no rope: at least 2", points.len())
+            });
+            for (k, pair) in points.windows(2).enumerate() {
+                c.require(pair[0] != pair[1], format_args!("path.points[{}]", k + 1), || {
+                    "it is where the point before it is".to_owned()
+                });
+            }
+        }
+    }
+    c.number("radius", rope.radius, LENGTH);
+    c.vector("velocity", &rope.velocity, COORDINATE);
+    c.number("mass", rope.mass, MASS);
+    for (k, pin) in rope.pins.iter().enumerate() {
+        check_pin::<RopeEnd>(c, k, pin, rope.path.point_count());
+    }
+    c.number("friction", rope.friction, NOT_NEGATIVE);
+    c.optional("bending", rope.bending, NOT_NEGATIVE);
+}
+
+fn check_pin<Place>(c: &mut Checker, k: usize, pin: &Pin<Place>, count: u64) {
+    if let Pin::Index(index) = *pin {
+        c.require(u64::from(index) < count, format_args!("pins[{k}]"), || {
+            format!("{index} is the index of no particle: there are {count}")
+        });
+    }
+}
+
+fn place_name(place: &SheetPlace) -> String {
+    serde_json::to_string(place).unwrap_or_default()
+}
+
+fn check_shape(c: &mut Checker, shape: &Shape) {
+    match shape {
+        Shape::Box { size } => c.vector("box.size", size, LENGTH),
+        Shape::Tetrahedron { radius } => c.number("tetrahedron.radius", *radius, LENGTH),
+        Shape::Octahedron { radius } => c.number("octahedron.radius", *radius, LENGTH),
+        Shape::Dodecahedron { radius } => c.number("dodecahedron.radius", *radius, LENGTH),
+        Shape::Icosahedron { radius } => c.number("icosahedron.radius", *radius, LENGTH),
+        Shape::Icosphere { radius, subdivisions } => c.within("icosphere", |c| {
+            c.number("radius", *radius, LENGTH);
+            c.count("subdivisions", *subdivisions, 0, 8);
+        }),
+        Shape::UvSphere { radius, segments, rings } => c.within("uv_sphere", |c| {
+            c.number("radius", *radius, LENGTH);
+            c.count("segments", *segments, 3, 1000);
+            c.count("rings", *rings, 2, 1000);
+        }),
+        Shape::Capsule { radius, height, segments, rings } => c.within("capsule", |c| {
+            c.number("radius", *radius, LENGTH);
+            c.number("height", *height, LENGTH);
+            c.count("segments", *segments, 3, 1000);
+            c.count("rings", *rings, 1, 1000);
+        }),
+        Shape::Cylinder { radius, height, segments } => c.within("cylinder", |c| {
+            c.number("radius", *radius, LENGTH);
+            c.number("height", *height, LENGTH);
+            c.count("segments", *segments, 3, 1000);
+        }),
+        Shape::Torus { radius, tube_radius, segments, tube_segments } => c.within("torus", |c| {
+            c.number("radius", *radius, LENGTH);
+            c.number("tube_radius", *tube_radius, LENGTH);
+            c.require(tube_radius < radius, "tube_radius", || {
+                format!("{tube_radius} leaves no hole: it must be below the radius {radius}")
+            });
+            c.count("segments", *segments, 3, 1000);
+            c.count("tube_segments", *tube_segments, 3, 1000);
+        }),
+        Shape::Hull { points } => {
+            c.points("hull.points", points);
+            c.require(points.len() >= 4, "hull.points", || {
+                format!("{} points span no volume: at least 4, not all in one plane", points.len())
+            });
+        }
+        Shape::Mesh(mesh) => check_mesh(c, mesh),
+        Shape::File(file) => check_file(c, file),
+    }
+}
+
+fn check_surface(c: &mut Checker, surface: &Surface) {
+    match surface {
+        Surface::Grid { columns, rows, width, depth } => c.within("grid", |c| {
+            c.count("columns", *columns, 2, limits::PARTICLES as u32 / 2);
+            c.count("rows", *rows, 2, limits::PARTICLES as u32 / 2);
+            c.number("width", *width, LENGTH);
+            c.number("depth", *depth, LENGTH);
+        }),
+        Surface::Mesh(mesh) => check_mesh(c, mesh),
+        Surface::File(file) => check_file(c, file),
+    }
+}
+
+/// Numbers and indices only: what is wrong with the surface as a whole is found where it is built.
+fn check_mesh(c: &mut Checker, mesh: &MeshSource) {
+    let count = mesh.positions.len();
+    c.within("mesh", |c| {
+        c.points("positions", &mesh.positions);
+        c.require(!mesh.triangles.is_empty(), "triangles", || "there are none".to_owned());
+        for (i, triangle) in mesh.triangles.iter().enumerate() {
+            for (k, &vertex) in triangle.iter().enumerate() {
+                c.require((vertex as usize) < count, format_args!("triangles[{i}][{k}]"), || {
+                    format!("{vertex} is the index of no position: there are {count}")
+                });
+            }
+        }
+    });
+}
+
+fn check_file(c: &mut Checker, file: &MeshFile) {
+    c.within("file", |c| {
+        c.number("scale", file.scale, LENGTH);
+        c.require(!file.path.is_empty(), "path", || "it is empty".to_owned());
+    });
+}
+
+fn check_rotation(c: &mut Checker, rotation: &Rotation) {
+    match rotation {
+        Rotation::Quaternion(quaternion) => c.direction("rotation", quaternion),
+        Rotation::AxisAngle(AxisAngle { axis, degrees }) => c.within("rotation", |c| {
+            c.direction("axis", axis);
+            c.number("degrees", *degrees, FINITE);
+        }),
+    }
+}
+
+fn check_box(c: &mut Checker, min: &[f32; 3], max: &[f32; 3]) {
+    c.vector("min", min, COORDINATE);
+    c.vector("max", max, COORDINATE);
+    for k in 0..3 {
+        c.require(
+            min[k] < max[k] || !min[k].is_finite() || !max[k].is_finite(),
+            format_args!("max[{k}]"),
+            || format!("{} is not above min[{k}], {}", max[k], min[k]),
+        );
+    }
+}

@@ -1,0 +1,105 @@
+//! The one error type of scenes: which file, which field, what is wrong and what would be right.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// Why a scene or a file was refused.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A file that cannot be read or written.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// A document that is not JSON, JSON5 or TOML, or whose fields are not those of a scene.
+    #[error("{0}")]
+    Parse(Box<ParseError>),
+    /// A document whose values are wrong: every problem, in the document's order.
+    #[error("{}", list(.0))]
+    Invalid(Vec<Problem>),
+    /// A mesh file that is malformed.
+    #[error("{}{}: {message}", path.display(), suffix(*line))]
+    Mesh {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1, where the format has lines.
+        line: Option<usize>,
+        /// What is wrong and what would be right.
+        message: String,
+    },
+    /// A name that no scene has.
+    #[error("there is no scene named {name:?}; there are: {}", known.join(", "))]
+    UnknownScene {
+        /// The name asked for.
+        name: String,
+        /// The names there are.
+        known: Vec<&'static str>,
+    },
+    /// The engine refused what the scene asked of it.
+    #[error(transparent)]
+    Engine(#[from] tautline::Error),
+}
+
+impl Error {
+    /// An input or output error at `path`.
+    pub(crate) fn io(path: &Path, source: std::io::Error) -> Self {
+        Self::Io { path: path.to_owned(), source }
+    }
+}
+
+/// Where a document stopped making sense, and why.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ParseError {
+    /// The file, where it came from one.
+    pub file: Option<PathBuf>,
+    /// Path of the field, such as `bodies[3].cloth.mass`; empty where the text itself is malformed.
+    pub field: String,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column, from 1.
+    pub column: usize,
+    /// What is wrong.
+    pub message: String,
+}
+
+impl fmt::Display for ParseError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.file {
+            Some(file) => write!(f, "{}:{}:{}: ", file.display(), self.line, self.column)?,
+            None => write!(f, "line {}, column {}: ", self.line, self.column)?,
+        }
+        if !self.field.is_empty() {
+            write!(f, "{}: ", self.field)?;
+        }
+        f.write_str(&self.message)
+    }
+}
+
+/// One thing wrong with a document.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Problem {
+    /// Path of the field, such as `bodies[3].cloth.mass`.
+    pub path: String,
+    /// What was found there and what would be right, such as `-1 is not a finite number above 0`.
+    pub message: String,
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.path, self.message)
+    }
+}
+
+/// One problem a line.
+fn list(problems: &[Problem]) -> String {
+    problems.iter().map(Problem::to_string).collect::<Vec<_>>().join("\n")
+}
+
+/// `:12` for line 12, nothing without a line.
+fn suffix(line: Option<usize>) -> String {
+    line.map_or_else(String::new, |line| format!(":{line}"))
+}

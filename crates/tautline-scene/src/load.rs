@@ -1,0 +1,102 @@
+//! Files to documents: a scene and the mesh files it names.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use tautline::mesh::TriMesh;
+
+use crate::document::{
+    Body, Cloth, Format, MeshFile, MeshSource, Rigid, Scene, Shape, Surface, limits, parse,
+};
+use crate::error::{Error, ParseError, Problem};
+use crate::mesh_file;
+
+/// Reads a scene file (JSON, JSON5 or TOML, by its extension), puts its mesh files in the place of their names
+/// and checks every value, so that what comes after needs no files.
+///
+/// # Errors
+/// [`Error::Io`] and [`Error::Parse`] for the scene file itself; [`Error::Invalid`] with every problem of its
+/// values and of its mesh files.
+pub fn load(path: &Path) -> Result<Scene, Error> {
+    let mut scene = read_document(path)?;
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut problems = scene.problems();
+    problems.extend(inline_mesh_files(&mut scene, folder));
+    if problems.is_empty() {
+        // The meshes are known only now: their number of particles counts too.
+        problems = scene.problems();
+    }
+    if problems.is_empty() { Ok(scene) } else { Err(Error::Invalid(problems)) }
+}
+
+fn read_document(path: &Path) -> Result<Scene, Error> {
+    let refusal = |line, column, message: &str| {
+        let (file, field) = (Some(path.to_owned()), String::new());
+        Error::Parse(Box::new(ParseError { file, field, line, column, message: message.to_owned() }))
+    };
+    let format = Format::of_path(path)
+        .ok_or_else(|| refusal(1, 1, "not a scene file: its name must end in .json, .json5 or .toml"))?;
+    let bytes = mesh_file::read_limited(path)?;
+    let text = String::from_utf8(bytes).map_err(|_| refusal(1, 1, "it is not UTF-8 text"))?;
+    // Some editors begin a text with a byte order mark.
+    parse(text.strip_prefix('\u{feff}').unwrap_or(&text), format).map_err(|error| match error {
+        Error::Parse(mut error) => {
+            error.file = Some(path.to_owned());
+            Error::Parse(error)
+        }
+        other => other,
+    })
+}
+
+/// Replaces the names of mesh files by what is in them; returns what is wrong with those that stay. Stops where
+/// the scene is sure to be refused: the rest would only take time and memory.
+fn inline_mesh_files(scene: &mut Scene, folder: &Path) -> Vec<Problem> {
+    let mut files = BTreeMap::new();
+    let mut problems = Vec::new();
+    let (mut vertices, mut triangles) = (0, 0);
+    for (i, body) in scene.bodies.iter_mut().enumerate() {
+        let Some((field, file)) = mesh_file_of(body) else { continue };
+        let read = files
+            .entry(file.path.clone())
+            .or_insert_with(|| mesh_file::read_inside(folder, &file.path).map_err(|error| error.to_string()));
+        match read {
+            Ok(mesh) => {
+                vertices += mesh.positions.len() as u64;
+                triangles += mesh.triangles.len() as u64;
+                let mesh = scaled(mesh, file.scale);
+                put_mesh(body, mesh);
+            }
+            Err(message) => {
+                let path = format!("bodies[{i}].{field}.file.path");
+                problems.push(Problem { path, message: message.clone() });
+            }
+        }
+        if vertices > limits::PARTICLES || triangles > limits::TRIANGLES || problems.len() == limits::PROBLEMS
+        {
+            break;
+        }
+    }
+    problems
+}
+
+/// The mesh file that a body names, and the field it is in.
+fn mesh_file_of(body: &Body) -> Option<(&'static str, &MeshFile)> {
+    match body {
+        Body::Rigid(Rigid { shape: Shape::File(file), .. }) => Some(("rigid.shape", file)),
+        Body::Cloth(Cloth { surface: Surface::File(file), .. }) => Some(("cloth.surface", file)),
+        _ => None,
+    }
+}
+
+fn put_mesh(body: &mut Body, mesh: MeshSource) {
+    match body {
+        Body::Rigid(rigid) => rigid.shape = Shape::Mesh(mesh),
+        Body::Cloth(cloth) => cloth.surface = Surface::Mesh(mesh),
+        Body::Rope(_) | Body::HalfSpace(_) | Body::Room(_) => {}
+    }
+}
+
+fn scaled(mesh: &TriMesh, scale: f32) -> MeshSource {
+    let positions = mesh.positions.iter().map(|&position| (position * scale).to_array()).collect();
+    MeshSource { positions, triangles: mesh.triangles.clone() }
+}

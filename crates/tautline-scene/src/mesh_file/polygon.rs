@@ -1,0 +1,66 @@
+//! Polygons to triangles, by cutting off ears (Meisters 1975), so that a face need not be convex.
+
+use tautline::Vec3;
+
+/// Corners of a face that is cut ear by ear, which takes the cube of their number at worst.
+const MOST_CORNERS: usize = 256;
+
+/// Triangles with the polygon's corners and its direction of turning. A convex polygon becomes a fan around
+/// its first corner.
+pub(super) fn triangulate(positions: &[Vec3], corners: &[u32]) -> Result<Vec<[u32; 3]>, String> {
+    if corners.len() < 3 {
+        return Err(format!("a face of {} corners is none: at least 3", corners.len()));
+    }
+    let normal = newell_normal(positions, corners);
+    let mut triangles = Vec::with_capacity(corners.len() - 2);
+    let mut rest = corners.to_vec();
+    let is_fan =
+        (1..corners.len() - 1).all(|i| turns(positions, [corners[0], corners[i], corners[i + 1]], normal));
+    if !is_fan && corners.len() > MOST_CORNERS {
+        return Err(format!(
+            "a face of {} corners that is not convex: at most {MOST_CORNERS}",
+            corners.len()
+        ));
+    }
+    while rest.len() > 3 {
+        // Without an ear the polygon crosses itself or has no area: the surface says so where it is built.
+        let ear = if is_fan { 1 } else { find_ear(positions, &rest, normal).unwrap_or(1) };
+        triangles.push(around(&rest, ear));
+        rest.remove(ear);
+    }
+    triangles.push([rest[0], rest[1], rest[2]]);
+    Ok(triangles)
+}
+
+/// Twice the polygon's area along its normal (Newell's method): right for any polygon that is nearly plane.
+fn newell_normal(positions: &[Vec3], corners: &[u32]) -> Vec3 {
+    let origin = positions[corners[0] as usize];
+    let ends = corners.iter().zip(corners.iter().cycle().skip(1));
+    ends.map(|(&a, &b)| (positions[a as usize] - origin).cross(positions[b as usize] - origin)).sum()
+}
+
+/// The first corner, from the second on, whose triangle turns as the polygon does and holds no other corner.
+fn find_ear(positions: &[Vec3], corners: &[u32], normal: Vec3) -> Option<usize> {
+    (1..=corners.len()).map(|i| i % corners.len()).find(|&i| {
+        let ear = around(corners, i);
+        let holds = |&other: &u32| !ear.contains(&other) && is_inside(positions, other, ear, normal);
+        turns(positions, ear, normal) && !corners.iter().any(holds)
+    })
+}
+
+/// A corner with its neighbours.
+fn around(corners: &[u32], i: usize) -> [u32; 3] {
+    let n = corners.len();
+    [corners[(i + n - 1) % n], corners[i], corners[(i + 1) % n]]
+}
+
+/// Whether a triangle turns counter-clockwise around the normal.
+fn turns(positions: &[Vec3], triangle: [u32; 3], normal: Vec3) -> bool {
+    let [a, b, c] = triangle.map(|vertex| positions[vertex as usize]);
+    (b - a).cross(c - a).dot(normal) > 0.0
+}
+
+/// Whether a vertex, seen along the normal, lies in a triangle or on its border.
+fn is_inside(positions: &[Vec3], vertex: u32, [a, b, c]: [u32; 3], normal: Vec3) -> bool {
+    [[b, a, vertex], [c, b, vertex], [a, c, vertex]].iter().all(|&outside| !turns(positions, outside, normal))
+}
