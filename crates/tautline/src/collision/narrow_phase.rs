@@ -70,11 +70,32 @@ impl NarrowPhase {
         }
     }
 
+    /// Looks again at the pairs of rigid bodies that touched, now that their deepest features have been
+    /// moved: each has one contact at most, at what is deepest now.
+    pub(crate) fn find_rigid_contacts(
+        &mut self,
+        scene: Scene<'_>,
+        pairs: &mut [Pair],
+        contacts: &mut Vec<Contact>,
+    ) {
+        contacts.clear();
+        for pair in pairs.iter_mut().filter(|pair| pair.touching) {
+            let shape = |body: u32| &scene.bodies[body as usize].shape;
+            if let (Shape::Truss { truss: a }, Shape::Truss { truss: b }) = (shape(pair.a), shape(pair.b)) {
+                let contact = self.rigid_contact(scene, pair, [a, b]);
+                pair.touching = contact.is_some();
+                contacts.extend(contact);
+            }
+        }
+    }
+
     fn pair_contacts(&mut self, scene: Scene<'_>, pair: &mut Pair, contacts: &mut Vec<Contact>) {
         let shape = |body: u32| &scene.bodies[body as usize].shape;
         match (shape(pair.a), shape(pair.b)) {
             (Shape::Truss { truss: a }, Shape::Truss { truss: b }) => {
-                contacts.extend(self.rigid_contact(scene, pair, [a, b]));
+                let contact = self.rigid_contact(scene, pair, [a, b]);
+                pair.touching = contact.is_some();
+                contacts.extend(contact);
             }
             (Shape::Deformable(a), Shape::Deformable(b)) => {
                 self.deformable_contacts(scene, pair, [a, b], contacts);

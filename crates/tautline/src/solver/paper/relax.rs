@@ -59,10 +59,11 @@ fn relax_sticks(
     settings: &Relaxation,
 ) -> Counts {
     let mut total = Counts::default();
-    for _ in 0..settings.sweeps {
+    for sweep in 0..settings.sweeps {
         let counts = match order {
             Some(list) => sweep_sticks(particles, sticks, list.iter().map(|&index| index as usize), settings),
-            None => sweep_sticks(particles, sticks, 0..sticks.len(), settings),
+            None if sweep % 2 == 0 => sweep_sticks(particles, sticks, 0..sticks.len(), settings),
+            None => sweep_sticks(particles, sticks, (0..sticks.len()).rev(), settings),
         };
         total += counts;
         if counts.relaxations == 0 {
