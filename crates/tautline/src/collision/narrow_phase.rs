@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::contact::{Contact, Patch};
 use super::pair::Pair;
-use super::solid::{Solid, nearest_surface};
+use super::solid::{Plane, Solid, nearest_surface};
 use crate::body::{Body, Deformable, HalfSpace, Shape, Truss};
 use crate::geometry::distance;
 use crate::geometry::epa::Epa;
@@ -19,8 +19,9 @@ pub(crate) struct NarrowPhase {
     spheres: Vec<WrappedSpheres>,
     stack: DescentStack,
     epa: Epa,
-    /// Leaves of a deformable body that are near triangles of a rigid one.
-    near: Vec<(u32, u32)>,
+    /// Leaves of a deformable body that are near triangles of a rigid one: leaf · 2³² + triangle.
+    near: Vec<u64>,
+    planes: Vec<Plane>,
 }
 
 /// Bodies with their particles, as the narrow phase reads them.
@@ -172,19 +173,24 @@ impl NarrowPhase {
     ) {
         let positions = scene.positions(body_b);
         let Ok(pose) = truss.tree().pose(positions, &mut self.spheres[body_b as usize]) else { return };
-        self.near.clear();
-        let near = &mut self.near;
+        let Self { near, planes, .. } = self;
+        near.clear();
         descend_pair(&deformable.tree, pose, &mut self.stack, |leaf, face| {
-            near.push((leaf as u32, face as u32))
+            near.push((leaf as u64) << 32 | face as u64);
         });
         near.sort_unstable();
+        planes.clear();
+        if truss.is_convex() && !near.is_empty() {
+            let corners = |triangle: &[u32; 3]| triangle.map(|v| positions[v as usize]);
+            planes.extend(truss.triangles().iter().map(|triangle| Plane::of(corners(triangle))));
+        }
         let faces = truss.tree().topology().features();
-        let solid = Solid { positions, triangles: truss.triangles(), convex: truss.is_convex() };
-        for group in near.chunk_by(|x, y| x.0 == y.0) {
-            let leaf = group[0].0 as usize;
+        let solid = Solid { positions, triangles: truss.triangles(), planes };
+        for group in near.chunk_by(|x, y| x >> 32 == y >> 32) {
+            let leaf = (group[0] >> 32) as usize;
             let sphere = deformable.tree.leaf_spheres()[leaf];
             let thickness = deformable.thickness.min(sphere.radius);
-            let candidates = group.iter().map(|&(_, face)| faces[face as usize].particles());
+            let candidates = group.iter().map(|&pair| faces[pair as u32 as usize].particles());
             let Some(hit) = nearest_surface(sphere.center, thickness, candidates, &solid) else { continue };
             let a = Patch::mean(scene.first(body_a), deformable.tree.topology().features()[leaf].particles());
             let b = Patch::feature(scene.first(body_b), &hit.point);
