@@ -98,11 +98,28 @@ impl Settings {
     /// [`Error::OutOfRange`] with the path of the field.
     pub fn validate(&self) -> Result<(), Error> {
         for (axis, value) in ["x", "y", "z"].into_iter().zip(self.gravity.to_array()) {
-            within(&format!("settings.gravity.{axis}"), value, -1e6, 1e6, "a number from -1e6 to 1e6 (m/s²)")?;
+            within(
+                &format!("settings.gravity.{axis}"),
+                value,
+                -1e6,
+                1e6,
+                "a number from -1e6 to 1e6 (m/s²)",
+            )?;
         }
         count("settings.substeps", self.substeps, 1000, "a whole number from 1 to 1000")?;
-        count("settings.relaxation.sweeps", self.relaxation.sweeps, 10_000, "a whole number from 1 to 10000")?;
-        within("settings.relaxation.tolerance", self.relaxation.tolerance, 0.0, 0.5, "a share from 0 to 0.5")?;
+        count(
+            "settings.relaxation.sweeps",
+            self.relaxation.sweeps,
+            10_000,
+            "a whole number from 1 to 10000",
+        )?;
+        within(
+            "settings.relaxation.tolerance",
+            self.relaxation.tolerance,
+            0.0,
+            0.5,
+            "a share from 0 to 0.5",
+        )?;
         within("settings.damping", self.damping, 0.0, 1e6, "a rate from 0 to 1e6 (1/s)")?;
         if let Some(sleep) = self.sleep {
             positive("settings.sleep.speed", sleep.speed)?;

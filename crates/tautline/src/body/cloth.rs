@@ -131,7 +131,9 @@ impl Cloth {
     pub(crate) fn build(self) -> Result<BuiltDeformable, Error> {
         self.validate()?;
         let mesh = match &self.surface {
-            Surface::Grid { columns, rows, width, depth } => primitives::grid(*columns, *rows, *width, *depth)?,
+            Surface::Grid { columns, rows, width, depth } => {
+                primitives::grid(*columns, *rows, *width, *depth)?
+            }
             Surface::Mesh(mesh) => mesh.clone(),
         };
         let half_edges = HalfEdgeMesh::from_mesh(&mesh)?;

@@ -72,9 +72,10 @@ impl Deformable {
         let sound = self.triangles.iter().all(|t| ok(t))
             && self.sticks.iter().all(|s| ok(&[s.a, s.b]) && s.rest_length.is_finite())
             && self.angles.iter().all(|a| ok(&[a.a, a.b, a.c]) && a.limit.is_finite() && a.compliance >= 0.0)
-            && self.bendings.iter().all(|b| {
-                ok(&b.edge) && ok(&b.wings) && b.limit.is_finite() && b.compliance >= 0.0
-            })
+            && self
+                .bendings
+                .iter()
+                .all(|b| ok(&b.edge) && ok(&b.wings) && b.limit.is_finite() && b.compliance >= 0.0)
             && self.thickness >= 0.0
             && self.neighbours.as_ref().is_none_or(|n| n.is_valid(self.tree.topology().leaf_count()));
         if sound { Ok(()) } else { Err(Error::Snapshot("a cloth or rope is inconsistent".into())) }
@@ -97,9 +98,14 @@ impl Neighbours {
     /// Of a tree that is fitted to the rest positions.
     fn of(tree: &LayeredTree) -> Self {
         let mut pairs = Vec::new();
-        descend_self(tree, &mut DescentStack::default(), |_, _| false, |a, b| {
-            pairs.push((a.min(b) as u32, a.max(b) as u32));
-        });
+        descend_self(
+            tree,
+            &mut DescentStack::default(),
+            |_, _| false,
+            |a, b| {
+                pairs.push((a.min(b) as u32, a.max(b) as u32));
+            },
+        );
         pairs.sort_unstable();
         let leaves = 0..=tree.topology().leaf_count();
         let starts = leaves.map(|leaf| pairs.partition_point(|&(a, _)| (a as usize) < leaf) as u32).collect();

@@ -29,7 +29,8 @@ pub(crate) fn best_rotation(rest: &[Vec3], positions: &[Vec3], center: Vec3) -> 
 /// Of a symmetric matrix, by Jacobi's rotations: each zeroes one entry off the diagonal; a few rounds over all
 /// six leave only rounding.
 fn largest_eigenvector(mut m: [[f64; 4]; 4]) -> [f64; 4] {
-    let mut vectors = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
+    let mut vectors =
+        [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
     for _ in 0..10 {
         for p in 0..3 {
             for q in p + 1..4 {
@@ -68,7 +69,8 @@ mod tests {
 
     #[test]
     fn finds_the_rotation_that_was_applied_also_half_turns() {
-        let rest = [Vec3::new(0.4, 0.1, 0.0), Vec3::new(-0.3, 0.5, 0.2), Vec3::new(0.1, -0.4, 0.6), Vec3::ZERO];
+        let rest =
+            [Vec3::new(0.4, 0.1, 0.0), Vec3::new(-0.3, 0.5, 0.2), Vec3::new(0.1, -0.4, 0.6), Vec3::ZERO];
         let mean = rest.iter().sum::<Vec3>() / 4.0;
         let rest = rest.map(|p| p - mean);
         let center = Vec3::new(5.0, -3.0, 2.0);

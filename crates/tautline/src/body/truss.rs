@@ -42,9 +42,7 @@ impl Truss {
         }
         let convex = is_convex(mesh);
         let (mut rest, edges) = match main_diagonals(mesh).filter(|_| convex) {
-            Some(diagonals) => {
-                (mesh.positions.clone(), surface.edges().chain(diagonals).collect::<Vec<_>>())
-            }
+            Some(diagonals) => (mesh.positions.clone(), surface.edges().chain(diagonals).collect::<Vec<_>>()),
             None => {
                 let tetrahedra = tetrahedralise(mesh)?;
                 let edges = tetrahedra.edges();
@@ -219,9 +217,10 @@ fn signed_volume(mesh: &TriMesh) -> f64 {
 }
 
 fn extent(mesh: &TriMesh) -> f32 {
-    let (low, high) = mesh.positions.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), &p| {
-        (low.min(p), high.max(p))
-    });
+    let (low, high) = mesh
+        .positions
+        .iter()
+        .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
     (high - low).max_element()
 }
 

@@ -14,9 +14,9 @@ pub(crate) struct Aabb {
 impl Aabb {
     /// The smallest box around points, grown by `margin` on all sides (m).
     pub(crate) fn around(points: &[Vec3], margin: f32) -> Self {
-        let (low, high) = points
-            .iter()
-            .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), &point| (low.min(point), high.max(point)));
+        let (low, high) = points.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), &point| {
+            (low.min(point), high.max(point))
+        });
         Self { low: low - margin, high: high + margin }
     }
 
@@ -53,9 +53,8 @@ fn all_pairs(candidates: &[Candidate], pairs: &mut Vec<(u32, u32)>) {
 
 fn sort_and_sweep(candidates: &mut [Candidate], pairs: &mut Vec<(u32, u32)>) {
     let axis = widest_axis(candidates);
-    candidates.sort_unstable_by(|a, b| {
-        a.bounds.low[axis].total_cmp(&b.bounds.low[axis]).then(a.body.cmp(&b.body))
-    });
+    candidates
+        .sort_unstable_by(|a, b| a.bounds.low[axis].total_cmp(&b.bounds.low[axis]).then(a.body.cmp(&b.body)));
     for (index, a) in candidates.iter().enumerate() {
         let reached = |b: &&Candidate| b.bounds.low[axis] <= a.bounds.high[axis];
         for b in candidates[index + 1..].iter().take_while(reached) {

@@ -40,7 +40,11 @@ impl Patch {
     }
 
     pub(crate) fn terms(&self) -> impl Iterator<Item = (usize, f32)> + '_ {
-        self.particles.iter().zip(self.weights).filter(|&(_, weight)| weight != 0.0).map(|(&i, w)| (i as usize, w))
+        self.particles
+            .iter()
+            .zip(self.weights)
+            .filter(|&(_, weight)| weight != 0.0)
+            .map(|(&i, w)| (i as usize, w))
     }
 
     pub(crate) fn point(&self, of: &[Vec3]) -> Vec3 {

@@ -48,7 +48,12 @@ impl<'a> Scene<'a> {
 impl NarrowPhase {
     /// Writes all contacts: with half-spaces, between pairs, of deformable bodies with themselves. Layered trees
     /// have been refitted.
-    pub(crate) fn find_contacts(&mut self, scene: Scene<'_>, pairs: &mut [Pair], contacts: &mut Vec<Contact>) {
+    pub(crate) fn find_contacts(
+        &mut self,
+        scene: Scene<'_>,
+        pairs: &mut [Pair],
+        contacts: &mut Vec<Contact>,
+    ) {
         contacts.clear();
         self.spheres.resize_with(scene.bodies.len(), WrappedSpheres::default);
         self.spheres.iter_mut().for_each(WrappedSpheres::invalidate);
@@ -92,8 +97,8 @@ impl NarrowPhase {
         if !root_a.overlaps(&root_b) {
             return None;
         }
-        let [hull_a, hull_b] =
-            [(trusses[0], x_a), (trusses[1], x_b)].map(|(truss, x)| Points(&x[..truss.surface().vertex_count()]));
+        let [hull_a, hull_b] = [(trusses[0], x_a), (trusses[1], x_b)]
+            .map(|(truss, x)| Points(&x[..truss.surface().vertex_count()]));
         let found = distance::contact(&hull_a, &hull_b, &mut pair.axis, &mut self.epa);
         let features = found.features.filter(|features| features.depth > 0.0)?;
         Some(Contact {
@@ -148,7 +153,9 @@ impl NarrowPhase {
         let Ok(pose) = truss.tree().pose(positions, &mut self.spheres[body_b as usize]) else { return };
         self.near.clear();
         let near = &mut self.near;
-        descend_pair(&deformable.tree, pose, &mut self.stack, |leaf, face| near.push((leaf as u32, face as u32)));
+        descend_pair(&deformable.tree, pose, &mut self.stack, |leaf, face| {
+            near.push((leaf as u32, face as u32))
+        });
         near.sort_unstable();
         let faces = truss.tree().topology().features();
         let solid = Solid { positions, triangles: truss.triangles(), convex: truss.is_convex() };
@@ -158,10 +165,7 @@ impl NarrowPhase {
             let thickness = deformable.thickness.min(sphere.radius);
             let candidates = group.iter().map(|&(_, face)| faces[face as usize].particles());
             let Some(hit) = nearest_surface(sphere.center, thickness, candidates, &solid) else { continue };
-            let a = Patch::mean(
-                scene.first(body_a),
-                deformable.tree.topology().features()[leaf].particles(),
-            );
+            let a = Patch::mean(scene.first(body_a), deformable.tree.topology().features()[leaf].particles());
             let b = Patch::feature(scene.first(body_b), &hit.point);
             let positions = &scene.particles.position;
             let normal = -hit.outward;
@@ -208,10 +212,12 @@ fn leaf_contact(
 
 /// Every particle behind a plane is a contact: a vertex on a face of infinite mass.
 fn half_space_contacts(scene: Scene<'_>, contacts: &mut Vec<Contact>) {
-    let walls = || scene.bodies.iter().enumerate().filter_map(|(index, body)| match &body.shape {
-        Shape::HalfSpace(wall) => Some((index as u32, wall)),
-        _ => None,
-    });
+    let walls = || {
+        scene.bodies.iter().enumerate().filter_map(|(index, body)| match &body.shape {
+            Shape::HalfSpace(wall) => Some((index as u32, wall)),
+            _ => None,
+        })
+    };
     for (index, body) in scene.bodies.iter().enumerate().filter(|(_, body)| body.is_awake()) {
         let thickness = match &body.shape {
             Shape::Deformable(deformable) => deformable.thickness,

@@ -40,8 +40,10 @@ pub struct Tetrahedra {
 
 /// How often a cavity is widened by the tetrahedra around it before an interior point is accepted.
 const WIDENINGS: usize = 4;
-/// How often points are seeded before the mesh is refused.
-const MAX_SEEDINGS: usize = 40;
+/// Seedings in a row that do not shrink what is empty before the mesh is refused.
+const MAX_STALLED: usize = 24;
+/// Where on the way through the solid points are put: half way, or else elsewhere.
+const SHARES: [f64; 5] = [0.5, 0.3, 0.7, 0.1, 0.4];
 
 /// Divides the inside of a closed mesh into tetrahedra. No vertex of the surface is moved or added, and
 /// every triangle is a face of exactly one tetrahedron. The same mesh gives the same result to the bit.
@@ -78,28 +80,56 @@ fn fill_cavities(
     filling: &mut Filling,
     surface: &BTreeSet<Face>,
 ) -> Result<(), Error> {
-    let mut seedings = 0;
-    while let Some(cavity) = filling.cavities(points).into_iter().min_by_key(|cavity| cavity.faces.len()) {
-        let rings = rings(filling, &cavity);
+    let (mut smallest_front, mut stalled) = (usize::MAX, 0);
+    loop {
+        let mut cavities = filling.cavities(points);
+        if cavities.is_empty() {
+            return Ok(());
+        }
+        cavities.sort_by_key(|cavity| cavity.faces.len());
+        let cavity = &cavities[stalled % cavities.len()];
+        let rings = rings(filling, cavity);
         let searched = rings.iter().find_map(|r| Some((r.clone(), search::search(points, &r.faces)?)));
-        if let Some((ring, tets)) = searched.or_else(|| steiner::star(points, filling, &cavity)) {
+        if let Some((ring, tets)) = searched.or_else(|| steiner::star(points, filling, cavity)) {
             filling.replace(&ring, tets);
             continue;
         }
-        if seedings == MAX_SEEDINGS {
-            return Err(unfilled(points, &cavity));
+        stalled = if filling.front().len() < smallest_front { 0 } else { stalled + 1 };
+        smallest_front = smallest_front.min(filling.front().len());
+        if stalled == MAX_STALLED {
+            return Err(unfilled(points, cavity));
         }
-        let ring = &rings[1 + seedings % 2];
-        let first = points.len() as u32;
-        let bare: Vec<Face> = cavity.faces.intersection(surface).copied().collect();
-        steiner::seed(points, surface, &bare, [0.5, 0.3, 0.7, 0.1][seedings / 2 % 4]);
-        let mut loose = filling.loose_vertices(ring);
-        loose.extend(first..points.len() as u32);
-        let tets = advance::advance(points, &ring.faces, &loose);
-        filling.replace(ring, tets);
-        seedings += 1;
+        reseed(
+            points,
+            filling,
+            surface,
+            (cavity, &rings[1 + stalled % WIDENINGS]),
+            SHARES[stalled % SHARES.len()],
+        );
     }
-    Ok(())
+}
+
+/// Puts points behind the cavity's surface triangles (behind all its faces if it has none) and lets the
+/// front advance through the wide neighbourhood around it.
+fn reseed(
+    points: &mut Vec<DVec3>,
+    filling: &mut Filling,
+    surface: &BTreeSet<Face>,
+    (cavity, wide): (&Cavity, &Cavity),
+    share: f64,
+) {
+    let first = points.len() as u32;
+    let bare: Vec<Face> = cavity.faces.intersection(surface).copied().collect();
+    if bare.is_empty() {
+        let faces: Vec<Face> = cavity.faces.iter().copied().collect();
+        steiner::seed(points, &cavity.faces, &faces, share);
+    } else {
+        steiner::seed(points, surface, &bare, share);
+    }
+    let mut loose = filling.loose_vertices(wide);
+    loose.extend(first..points.len() as u32);
+    let tets = advance::advance(points, &wide.faces, &loose);
+    filling.replace(wide, tets);
 }
 
 /// The cavity, and wider and wider ones around it.
