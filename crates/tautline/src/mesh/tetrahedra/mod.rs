@@ -18,14 +18,14 @@ mod search;
 mod steiner;
 mod surface;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DVec3, Vec3};
 
 use super::TriMesh;
 use crate::{Error, MeshDefect};
 use filling::{Cavity, Filling};
-use predicates::Face;
+use predicates::{Face, Tet};
 
 /// The inside of a closed surface as tetrahedra.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,17 +60,13 @@ pub fn tetrahedralise(mesh: &TriMesh) -> Result<Tetrahedra, Error> {
     for tet in conforming::conforming(&points, &surface, &delaunay) {
         filling.place(tet);
     }
-    for tet in advance::advance(&points, filling.front(), &[]) {
-        filling.place(tet);
+    for cavity in filling.cavities(&points) {
+        filling.replace(&cavity, advance::advance(&points, &cavity.faces, &[]));
     }
     fill_cavities(&mut points, &mut filling, &surface.into_iter().collect())?;
     let first_interior = mesh.positions.len();
-    remove_interior_points(&mut points, &mut filling, first_interior);
-    Ok(Tetrahedra {
-        interior_points: points.len() - first_interior,
-        tetrahedra: filling.tetrahedra(),
-        points: points.iter().map(|p| p.as_vec3()).collect(), // exact: every point came from an f32 one
-    })
+    remove_interior_points(&points, &mut filling, first_interior);
+    Ok(numbered(&points, filling.tetrahedra(), first_interior))
 }
 
 /// Fills what the advancing front left, cavity by cavity: without a new point if possible, or with one;
@@ -157,14 +153,23 @@ fn unfilled(points: &[DVec3], cavity: &Cavity) -> Error {
 }
 
 /// Takes out the interior points whose surroundings can be filled without them.
-fn remove_interior_points(points: &mut Vec<DVec3>, filling: &mut Filling, first: usize) {
-    for vertex in (first..points.len()).rev() {
-        let rings = rings(filling, &filling.star(vertex as u32));
-        let found = rings.iter().take(2).find_map(|r| search::search(points, &r.faces).map(|t| (r, t)));
-        if let Some((ring, tets)) = found {
+fn remove_interior_points(points: &[DVec3], filling: &mut Filling, first: usize) {
+    for vertex in (first as u32..points.len() as u32).rev() {
+        let star = filling.star(vertex);
+        let rings = [star.clone(), filling.widened(&star)];
+        let searched = rings.iter().find_map(|r| Some((r, search::search(points, &r.faces)?)));
+        if let Some((ring, tets)) = searched {
             filling.replace(ring, tets);
-            filling.forget_vertex(vertex as u32);
-            points.remove(vertex);
         }
     }
+}
+
+/// The result, with the interior points that are in use numbered anew.
+fn numbered(points: &[DVec3], mut tetrahedra: Vec<Tet>, first: usize) -> Tetrahedra {
+    let used: BTreeSet<u32> = tetrahedra.iter().flatten().copied().filter(|&v| v as usize >= first).collect();
+    let numbers: BTreeMap<u32, u32> = used.iter().copied().zip(first as u32..).collect();
+    tetrahedra.iter_mut().flatten().for_each(|v| *v = numbers.get(v).copied().unwrap_or(*v));
+    let kept = points[..first].iter().chain(used.iter().map(|&v| &points[v as usize]));
+    // Exact: every point came from an f32 one.
+    Tetrahedra { points: kept.map(|p| p.as_vec3()).collect(), tetrahedra, interior_points: used.len() }
 }
