@@ -62,7 +62,7 @@ mod tests {
                     evaluate(moved).0
                 };
                 let difference = (at(1e-2) - at(-1e-2)) / 2e-2;
-                assert!((difference - gradients[particle][axis]).abs() < 3e-3, "{particle} {axis}");
+                assert!((difference - gradients[particle][axis]).abs() < 3e-3, "{particle} {axis}: {difference} {}", gradients[particle][axis]);
             }
         }
         assert!(gradients.iter().sum::<Vec3>().length() < 1e-5, "momentum");
