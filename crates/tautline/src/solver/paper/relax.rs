@@ -243,7 +243,7 @@ mod tests {
     #[test]
     fn rigid_angles_and_bendings_reach_their_target() {
         let mut bent = store(&[Vec3::X, Vec3::ZERO, Vec3::Y]);
-        let limit = AngleLimit::Range(2.0, 3.0);
+        let limit = AngleLimit::Target(2.0);
         let angles = [Angle { a: 0, b: 1, c: 2, limit, compliance: 0.0 }];
         let mut folded = store(&[Vec3::Z, Vec3::Y, Vec3::ZERO, Vec3::X]);
         let limit = AngleLimit::Target(0.0);
