@@ -10,6 +10,7 @@ use crate::geometry::distance;
 use crate::geometry::epa::Epa;
 use crate::geometry::sphere_tree::{DescentStack, WrappedSpheres, descend_pair, descend_self};
 use crate::geometry::support::Points;
+use crate::parallel;
 use crate::particles::Particles;
 
 /// Finds contacts. It holds only scratch memory, so that a step allocates nothing once that has grown.
@@ -59,6 +60,7 @@ impl NarrowPhase {
         self.spheres.resize_with(scene.bodies.len(), WrappedSpheres::default);
         self.spheres.iter_mut().for_each(WrappedSpheres::invalidate);
         half_space_contacts(scene, contacts);
+        self.rigid_contacts(scene, pairs, contacts);
         for pair in pairs {
             self.pair_contacts(scene, pair, contacts);
         }
@@ -80,24 +82,23 @@ impl NarrowPhase {
         contacts: &mut Vec<Contact>,
     ) {
         contacts.clear();
-        for pair in pairs.iter_mut().filter(|pair| pair.touching) {
-            let shape = |body: u32| &scene.bodies[body as usize].shape;
-            if let (Shape::Truss { truss: a }, Shape::Truss { truss: b }) = (shape(pair.a), shape(pair.b)) {
-                let contact = self.rigid_contact(scene, pair, [a, b]);
-                pair.touching = contact.is_some();
-                contacts.extend(contact);
-            }
-        }
+        self.rigid_contacts(scene, pairs, contacts);
     }
 
-    fn pair_contacts(&mut self, scene: Scene<'_>, pair: &mut Pair, contacts: &mut Vec<Contact>) {
+    /// One contact at most for each pair of rigid bodies that may touch.
+    fn rigid_contacts(&mut self, scene: Scene<'_>, pairs: &mut [Pair], contacts: &mut Vec<Contact>) {
+        let worthwhile = pairs.len() > WORTHWHILE;
+        parallel::filter_map(pairs, worthwhile, &mut self.epa, contacts, |epa, pair| {
+            let contact = if pair.may_touch { rigid_contact(scene, pair, epa) } else { None };
+            pair.may_touch = contact.is_some();
+            contact
+        });
+    }
+
+    /// Contacts of a pair of which one body at least is deformable.
+    fn pair_contacts(&mut self, scene: Scene<'_>, pair: &Pair, contacts: &mut Vec<Contact>) {
         let shape = |body: u32| &scene.bodies[body as usize].shape;
         match (shape(pair.a), shape(pair.b)) {
-            (Shape::Truss { truss: a }, Shape::Truss { truss: b }) => {
-                let contact = self.rigid_contact(scene, pair, [a, b]);
-                pair.touching = contact.is_some();
-                contacts.extend(contact);
-            }
             (Shape::Deformable(a), Shape::Deformable(b)) => {
                 self.deformable_contacts(scene, pair, [a, b], contacts);
             }
@@ -107,31 +108,8 @@ impl NarrowPhase {
             (Shape::Truss { truss: a }, Shape::Deformable(b)) => {
                 self.mixed_contacts(scene, (pair.b, b), (pair.a, a), contacts);
             }
-            (Shape::HalfSpace(_), _) | (_, Shape::HalfSpace(_)) => {}
+            _ => {}
         }
-    }
-
-    /// Rigid against rigid: the outermost spheres, then GJK and the hit face.
-    fn rigid_contact(&mut self, scene: Scene<'_>, pair: &mut Pair, trusses: [&Truss; 2]) -> Option<Contact> {
-        let bodies = [pair.a, pair.b];
-        let [x_a, x_b] = bodies.map(|body| scene.positions(body));
-        let (root_a, root_b) = (trusses[0].tree().sphere(0, x_a), trusses[1].tree().sphere(0, x_b));
-        if !root_a.overlaps(&root_b) {
-            return None;
-        }
-        let [hull_a, hull_b] = [(trusses[0], x_a), (trusses[1], x_b)]
-            .map(|(truss, x)| Points(&x[..truss.surface().vertex_count()]));
-        let found = distance::contact(&hull_a, &hull_b, &mut pair.axis, &mut self.epa);
-        let features = found.features.filter(|features| features.depth > 0.0)?;
-        Some(Contact {
-            body_a: pair.a,
-            body_b: pair.b,
-            a: Patch::feature(scene.first(pair.a), &features.a),
-            b: Some(Patch::feature(scene.first(pair.b), &features.b)),
-            normal: features.normal,
-            offset: features.normal.dot(features.point_a - features.point_b) - features.depth,
-            friction: scene.friction(pair.a, pair.b),
-        })
     }
 
     /// Deformable against deformable: leaves whose spheres overlap (paper, Eq 11).
@@ -207,6 +185,36 @@ impl NarrowPhase {
             });
         }
     }
+}
+
+/// From so many pairs on it pays to test them side by side.
+const WORTHWHILE: usize = 256;
+
+/// Rigid against rigid: the outermost spheres, then GJK and the hit face.
+fn rigid_contact(scene: Scene<'_>, pair: &mut Pair, epa: &mut Epa) -> Option<Contact> {
+    let bodies = [pair.a, pair.b];
+    let [Shape::Truss { truss: truss_a }, Shape::Truss { truss: truss_b }] =
+        bodies.map(|body| &scene.bodies[body as usize].shape)
+    else {
+        return None;
+    };
+    let [x_a, x_b] = bodies.map(|body| scene.positions(body));
+    if !truss_a.tree().sphere(0, x_a).overlaps(&truss_b.tree().sphere(0, x_b)) {
+        return None;
+    }
+    let hull_a = Points(&x_a[..truss_a.surface().vertex_count()]);
+    let hull_b = Points(&x_b[..truss_b.surface().vertex_count()]);
+    let found = distance::contact(&hull_a, &hull_b, &mut pair.axis, epa);
+    let features = found.features.filter(|features| features.depth > 0.0)?;
+    Some(Contact {
+        body_a: pair.a,
+        body_b: pair.b,
+        a: Patch::feature(scene.first(pair.a), &features.a),
+        b: Some(Patch::feature(scene.first(pair.b), &features.b)),
+        normal: features.normal,
+        offset: features.normal.dot(features.point_a - features.point_b) - features.depth,
+        friction: scene.friction(pair.a, pair.b),
+    })
 }
 
 /// A contact of two leaves, which are moved apart along the line through their centres until their spheres
