@@ -28,7 +28,7 @@
 //!
 //! Metres, kilograms, seconds and radians. Right-handed, Y up; gravity is −9.81 m/s² along Y unless
 //! [`Settings::gravity`] says otherwise. Quaternions are in the order x, y, z, w. Triangles run counter-clockwise
-//! seen from outside. A contact's normal points from body A to body B, and A is the one that was added first.
+//! seen from outside. Normals between two bodies point from A to B.
 //!
 //! # From a mesh to a picture
 //!
