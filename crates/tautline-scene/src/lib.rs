@@ -6,9 +6,11 @@
 
 pub mod document;
 mod error;
+pub mod export;
 mod load;
 pub mod mesh_file;
 pub mod recording;
+pub mod render;
 
 pub use error::{Error, ParseError, Problem};
 pub use load::load;

@@ -73,6 +73,7 @@ mod error;
 pub mod geometry;
 mod measure;
 pub mod mesh;
+mod parallel;
 mod particles;
 mod report;
 mod rest;
