@@ -5,11 +5,11 @@ use std::sync::LazyLock;
 use tautline::Vec3;
 
 /// Sunlight on a face turned to it, a little warm.
-const SUN: Vec3 = Vec3::new(0.98, 0.93, 0.84);
+const SUN: Vec3 = Vec3::new(0.94, 0.89, 0.80);
 /// Light from straight above, a little cool.
-const SKY: Vec3 = Vec3::new(0.46, 0.50, 0.56);
+const SKY: Vec3 = Vec3::new(0.47, 0.50, 0.55);
 /// Light from below, off the ground.
-const GROUND: Vec3 = Vec3::new(0.27, 0.25, 0.235);
+const GROUND: Vec3 = Vec3::new(0.36, 0.335, 0.31);
 /// Strength of the highlight on solids.
 const GLOSS: f32 = 0.10;
 

@@ -15,7 +15,7 @@ const NOTHING: u32 = u32::MAX;
 /// How far what hides the sky from a spot may be, as a share of the radius of all that moves.
 const OCCLUSION_RADIUS: f32 = 0.07;
 /// Where walls begin to fade into the background and where they are gone, in radii of all that moves.
-const FADE: [f32; 2] = [1.5, 3.6];
+const FADE: [f32; 2] = [1.15, 2.4];
 
 /// What each sample shows.
 struct Samples {
@@ -28,7 +28,6 @@ struct Samples {
 }
 
 /// Samples of one pixel that show the same triangle.
-#[derive(Clone, Copy)]
 struct Fragment {
     triangle: u32,
     samples: f32,
@@ -47,11 +46,10 @@ pub(super) fn picture(renderer: &Renderer, pose: &Pose, shadow_map: &ShadowMap) 
         let behind = background((y as f32 + 0.5) / height as f32);
         for x in 0..width {
             let mut color = Vec3::ZERO;
-            let (fragments, count) = samples.fragments(x, y);
-            for fragment in &fragments[..count] {
-                let openness = open[y * width + x];
+            let openness = open[y * width + x];
+            samples.for_each_fragment(x, y, |fragment| {
                 color += renderer.color(pose, shadow_map, fragment, behind, openness) * fragment.samples;
-            }
+            });
             pixels.push(to_srgb(color / (samples.per_pixel * samples.per_pixel) as f32));
         }
     }
@@ -93,43 +91,49 @@ fn visible(renderer: &Renderer, pose: &Pose) -> Samples {
 fn sky(renderer: &Renderer, pose: &Pose, samples: &Samples) -> Vec<f32> {
     let (width, height) = (renderer.settings.width as usize, renderer.settings.height as usize);
     let (mut depth, mut normals) = (vec![f32::INFINITY; width * height], vec![Vec3::ZERO; width * height]);
+    // Neighbours mostly show the same triangle: its normal is turned once.
+    let mut last = (NOTHING, Vec3::ZERO);
     for i in 0..width * height {
         let sample = ((i / width) * samples.width + i % width) * samples.per_pixel;
         let triangle = samples.triangle[sample];
-        if triangle != NOTHING {
-            let normal = pose.face_normals[triangle as usize];
-            let faces_camera = normal.dot(renderer.view.forward) < 0.0;
-            (depth[i], normals[i]) =
-                (1.0 / samples.inverse_depth[sample], if faces_camera { normal } else { -normal });
+        if triangle == NOTHING {
+            continue;
         }
+        if triangle != last.0 {
+            let normal = renderer.view.turn(pose.face_normals[triangle as usize]);
+            let towards = renderer.view.to_view(renderer.stage.corners(pose, triangle as usize)[0]);
+            last = (triangle, if normal.dot(towards) < 0.0 { normal } else { -normal });
+        }
+        (depth[i], normals[i]) = (1.0 / samples.inverse_depth[sample], last.1);
     }
-    let view = &renderer.pixel_view;
-    openness(
-        &Geometry { view, width, height, depth: &depth, normals: &normals },
-        OCCLUSION_RADIUS * renderer.focus.1,
-    )
+    let focal = renderer.view.focal() / samples.per_pixel as f32;
+    let radius = OCCLUSION_RADIUS * renderer.focus.1;
+    openness(&Geometry { focal, width, height, depth: &depth, normals: &normals }, radius)
 }
 
 impl Samples {
-    /// What a pixel shows: at most 16 fragments, in the order of its samples.
-    fn fragments(&self, x: usize, y: usize) -> ([Fragment; 16], usize) {
-        let none = Fragment { triangle: NOTHING, samples: 0.0, x: 0.0, y: 0.0, inverse_depth: 0.0 };
-        let (mut fragments, mut count) = ([none; 16], 0);
+    /// Hands out what a pixel shows, in the order of its samples.
+    fn for_each_fragment(&self, x: usize, y: usize, mut show: impl FnMut(&Fragment)) {
         let n = self.per_pixel;
-        for (sy, sx) in (0..n * n).map(|i| (y * n + i / n, x * n + i % n)) {
-            let i = sy * self.width + sx;
-            let triangle = self.triangle[i];
-            let known = fragments[..count].iter().position(|f| f.triangle == triangle);
-            let at = known.unwrap_or(count);
-            count = count.max(at + 1);
-            let fragment = &mut fragments[at];
-            fragment.triangle = triangle;
-            fragment.samples += 1.0;
-            fragment.x += sx as f32 + 0.5;
-            fragment.y += sy as f32 + 0.5;
-            fragment.inverse_depth += self.inverse_depth[i];
+        let corner = y * n * self.width + x * n;
+        let index = |sample: usize| corner + sample / n * self.width + sample % n;
+        let mut left: u32 = (1 << (n * n)) - 1;
+        while left != 0 {
+            let triangle = self.triangle[index(left.trailing_zeros() as usize)];
+            let mut fragment = Fragment { triangle, samples: 0.0, x: 0.0, y: 0.0, inverse_depth: 0.0 };
+            for sample in 0..n * n {
+                let i = index(sample);
+                if self.triangle[i] != triangle {
+                    continue;
+                }
+                left &= !(1 << sample);
+                fragment.samples += 1.0;
+                fragment.x += (x * n + sample % n) as f32 + 0.5;
+                fragment.y += (y * n + sample / n) as f32 + 0.5;
+                fragment.inverse_depth += self.inverse_depth[i];
+            }
+            show(&fragment);
         }
-        (fragments, count)
     }
 }
 
@@ -162,7 +166,7 @@ impl Renderer<'_> {
         } else {
             pose.face_normals[triangle] * side
         };
-        let facing_sun = normal.dot(self.towards_sun) > 0.0;
+        let facing_sun = normal.dot(self.sun.direction) > 0.0;
         let spot = Spot {
             albedo: material.albedo[usize::from(!outside)],
             normal,
@@ -171,7 +175,7 @@ impl Renderer<'_> {
             openness,
             glossy: matches!(material.surface, Surface::Solid | Surface::Tube),
         };
-        tone_map(light(&spot, self.towards_sun)).lerp(behind, fade)
+        tone_map(light(&spot, self.sun.direction)).lerp(behind, fade)
     }
 
     /// How much of the background shows through a wall at a point: 0 to 1, smooth.
