@@ -142,7 +142,7 @@ fn the_khronos_validator_has_no_complaints() {
         // Quaternions as an engine might leave them: not quite unit, and one that is none.
         let mut spun = recordings::icosahedra(2, 4);
         if let Some(Motion::Rigid(poses)) = spun.tracks.last_mut().map(|track| &mut track.motion) {
-            poses[1].1 = poses[1].1 * 1.3;
+            poses[1].1 *= 1.3;
             poses[2].1 = Quat::from_xyzw(0.0, 0.0, 0.0, 0.0);
         }
         spun

@@ -15,6 +15,7 @@ use tautline::Vec3;
 pub use camera::Camera;
 pub(crate) use light::from_srgb as linear_color;
 pub(crate) use normals::smooth_normals;
+pub(crate) use shade::Scratch;
 
 use crate::Error;
 use crate::recording::{Recording, Surface};
@@ -111,9 +112,17 @@ impl<'a> Renderer<'a> {
 
     /// The picture of a frame; after the last frame, that of the last.
     pub fn frame(&self, frame: usize) -> Image {
+        self.frame_with(frame, &mut Scratch::default())
+    }
+
+    /// [`Self::frame`] for many frames in turn; what is in the scratch before does not matter.
+    pub(crate) fn frame_with(&self, frame: usize, scratch: &mut Scratch) -> Image {
         let pose = self.stage.pose(self.recording, frame);
-        let shadow_map = ShadowMap::cast(self.sun, self.stage.casters(&pose, &self.materials));
-        shade::picture(self, &pose, &shadow_map)
+        let mut memory = std::mem::take(&mut scratch.shadow_map);
+        let shadow_map = ShadowMap::cast(self.sun, self.stage.casters(&pose, &self.materials), &mut memory);
+        let image = shade::picture(self, &pose, &shadow_map, scratch);
+        scratch.shadow_map = memory;
+        image
     }
 }
 

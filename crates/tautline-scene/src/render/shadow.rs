@@ -4,6 +4,7 @@ use tautline::Vec3;
 
 use super::camera::basis;
 use super::raster::for_each_span;
+use super::shade::refill;
 
 /// Texels along a side of the map.
 const SIZE: usize = 640;
@@ -47,18 +48,18 @@ impl Sun {
 }
 
 /// What the sun sees in one frame.
-pub(super) struct ShadowMap {
+pub(super) struct ShadowMap<'a> {
     sun: Sun,
     /// Height (m) towards the sun of what it sees at each texel; the least number where that is nothing.
-    height: Vec<f32>,
+    height: &'a [f32],
     /// The greatest height in each tile and the eight around it.
     highest: Vec<f32>,
 }
 
-impl ShadowMap {
-    /// The shadows of these triangles (world, m).
-    pub(super) fn cast(sun: Sun, casters: impl Iterator<Item = [Vec3; 3]>) -> Self {
-        let mut height = vec![f32::MIN; SIZE * SIZE];
+impl<'a> ShadowMap<'a> {
+    /// The shadows of these triangles (world, m), kept in `memory`.
+    pub(super) fn cast(sun: Sun, casters: impl Iterator<Item = [Vec3; 3]>, memory: &'a mut Vec<f32>) -> Self {
+        let height = refill(memory, SIZE * SIZE, f32::MIN);
         for corners in casters {
             for_each_span(corners.map(|p| sun.to_map(p)), SIZE, SIZE, |span| {
                 for (i, texel) in height[span.samples.clone()].iter_mut().enumerate() {
@@ -66,7 +67,7 @@ impl ShadowMap {
                 }
             });
         }
-        Self { sun, highest: highest_around(&height), height }
+        Self { sun, highest: highest_around(height), height }
     }
 
     /// The share of sunlight, 0 to 1, that reaches a point `p` (m) on a plane with unit normal `normal`, on the
