@@ -39,29 +39,25 @@ pub enum Error {
         /// The names there are.
         known: Vec<&'static str>,
     },
-    /// A file name whose extension names no format that can be written.
-    #[error("{}: no known format; the extension must be one of {supported}", path.display())]
-    UnsupportedFormat {
-        /// The file asked for.
-        path: PathBuf,
-        /// The extensions that would do, such as ".gif, .glb, .png".
-        supported: &'static str,
+    /// A name that no parameter of the scene has.
+    #[error("the scene {scene} has no parameter named {name:?}; it has: {}", known.join(", "))]
+    UnknownParameter {
+        /// The scene's name.
+        scene: &'static str,
+        /// The name asked for.
+        name: String,
+        /// The names there are.
+        known: Vec<&'static str>,
     },
-    /// A picture of a size, rate or frame that cannot be made.
-    #[error("{option}: {problem}")]
-    Unsupported {
-        /// The option in question, such as `width`.
-        option: &'static str,
-        /// What is wrong and what would be right.
-        problem: String,
-    },
-    /// A recording that contradicts itself.
-    #[error("recording, track \"{track}\": {problem}")]
-    Recording {
-        /// The track's name.
-        track: String,
-        /// What is wrong with it.
-        problem: String,
+    /// A value that a scene's parameter cannot have.
+    #[error("{name}: {value:?} is not {expected}")]
+    ParameterValue {
+        /// The parameter's name.
+        name: String,
+        /// The value given; empty where there was none.
+        value: String,
+        /// What would be right.
+        expected: String,
     },
     /// The engine refused what the scene asked of it.
     #[error(transparent)]
