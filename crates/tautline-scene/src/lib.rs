@@ -4,6 +4,7 @@
     warn(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, clippy::print_stderr)
 )]
 
+pub mod build;
 pub mod document;
 mod error;
 pub mod export;
@@ -11,6 +12,8 @@ mod load;
 pub mod mesh_file;
 pub mod recording;
 pub mod render;
+pub mod registry;
+pub mod run;
 
 pub use error::{Error, ParseError, Problem};
 pub use load::load;

@@ -21,15 +21,20 @@ pub struct Settings {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f32>,
     /// The order in which the sticks of a body that collided are relaxed.
-    pub ordering: Ordering,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ordering: Option<Ordering>,
     /// How the length of a stick is computed.
-    pub square_root: SquareRoot,
-    /// Share of its velocity that a particle loses in a second, from 0 to below 1.
-    pub damping: f32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub square_root: Option<SquareRoot>,
+    /// Rate at which free motion dies out, in 1/s, 0 being none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub damping: Option<f32>,
     /// How pairs of bodies that may touch are found.
-    pub broad_phase: BroadPhase,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub broad_phase: Option<BroadPhase>,
     /// When bodies at rest stop being moved.
-    pub sleep: Sleep,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sleep: Option<Sleep>,
 }
 
 impl Default for Settings {
@@ -40,11 +45,21 @@ impl Default for Settings {
             substeps: None,
             sweeps: None,
             tolerance: None,
-            ordering: Ordering::default(),
-            square_root: SquareRoot::default(),
-            damping: 0.0,
-            broad_phase: BroadPhase::default(),
-            sleep: Sleep::default(),
+            ordering: None,
+            square_root: None,
+            damping: None,
+            broad_phase: None,
+            sleep: None,
+        }
+    }
+}
+
+impl Settings {
+    /// Changes to another solver with that solver's own substeps, sweeps and tolerance: those of the document
+    /// were chosen for the one before.
+    pub fn use_solver(&mut self, solver: Solver) {
+        if self.solver != solver {
+            *self = Self { solver, substeps: None, sweeps: None, tolerance: None, ..self.clone() };
         }
     }
 }
@@ -55,40 +70,37 @@ impl Default for Settings {
 pub enum Solver {
     /// The reference: bodies of sticks, hit faces, ordered relaxation.
     Paper,
-    /// Substeps and soft contacts.
+    /// The same method in substeps, which hold stacks and keep cloth short.
     #[default]
     Default,
 }
 
 /// An order of relaxation.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Ordering {
     /// By graph distance from the particle that the collision moved furthest.
-    #[default]
     ByDistance,
     /// In the order in which the body was built.
     AsBuilt,
 }
 
 /// A way to compute the length of a stick.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SquareRoot {
     /// The square root.
-    #[default]
     Exact,
     /// Its first-order expansion around the rest length.
     FirstOrder,
 }
 
 /// A way to find pairs of bodies.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum BroadPhase {
-    /// A uniform grid.
-    #[default]
-    Grid,
+    /// Boxes sorted along one axis, and swept.
+    SortAndSweep,
     /// Every pair is tested.
     AllPairs,
 }
@@ -106,10 +118,4 @@ pub enum Sleep {
         /// How long it must have been slow, in s.
         seconds: f32,
     },
-}
-
-impl Default for Sleep {
-    fn default() -> Self {
-        Self::After { speed: 0.02, seconds: 0.5 }
-    }
 }
