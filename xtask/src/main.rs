@@ -1,2 +1,51 @@
-//! Project tasks: `cargo xtask test` runs everything that must pass.
-fn main() {}
+//! Project tasks. `cargo xtask test` runs everything that must pass.
+
+mod command;
+mod files;
+mod hashes;
+mod project;
+mod readme;
+mod setup;
+mod steps;
+mod tidy;
+
+use std::process::ExitCode;
+
+use project::Project;
+use steps::STEPS;
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let project = match Project::find() {
+        Ok(project) => project,
+        Err(problem) => return refuse(&problem),
+    };
+    match arguments[..] {
+        ["test"] => steps::run(&project, STEPS),
+        ["test", "--only", name] => match STEPS.iter().position(|step| step.name == name) {
+            Some(k) => steps::run(&project, &STEPS[k..=k]),
+            None => refuse(&format!("there is no step `{name}`\n\n{}", usage())),
+        },
+        [] | ["help" | "--help" | "-h"] => {
+            println!("{}", usage());
+            ExitCode::SUCCESS
+        }
+        _ => refuse(&usage()),
+    }
+}
+
+fn refuse(message: &str) -> ExitCode {
+    eprintln!("{message}");
+    ExitCode::from(2)
+}
+
+fn usage() -> String {
+    let mut text = "cargo xtask test               everything that must pass\n\
+                    cargo xtask test --only NAME   one step of it:\n"
+        .to_owned();
+    for step in STEPS {
+        text += &format!("\n  {:9} {}", step.name, step.about);
+    }
+    text
+}

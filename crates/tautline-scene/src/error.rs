@@ -59,6 +59,30 @@ pub enum Error {
         /// What would be right.
         expected: String,
     },
+    /// A file name whose extension names no format that can be written.
+    #[error("{}: no known format; the extension must be one of {supported}", path.display())]
+    UnsupportedFormat {
+        /// The file asked for.
+        path: PathBuf,
+        /// The extensions that would do, such as ".gif, .glb, .png".
+        supported: &'static str,
+    },
+    /// A picture of a size, rate or frame that cannot be made.
+    #[error("{option}: {problem}")]
+    Unsupported {
+        /// The option in question, such as `width`.
+        option: &'static str,
+        /// What is wrong and what would be right.
+        problem: String,
+    },
+    /// A recording that contradicts itself.
+    #[error("recording, track \"{track}\": {problem}")]
+    Recording {
+        /// The track's name.
+        track: String,
+        /// What is wrong with it.
+        problem: String,
+    },
     /// The engine refused what the scene asked of it.
     #[error(transparent)]
     Engine(#[from] tautline::Error),

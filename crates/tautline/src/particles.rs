@@ -78,12 +78,18 @@ impl Particles {
         self.displacement[particle] += shift;
     }
 
-    pub(crate) fn slice_mut(&mut self, range: Range<usize>) -> ParticlesMut<'_> {
-        ParticlesMut {
-            position: &mut self.position[range.clone()],
-            displacement: &mut self.displacement[range.clone()],
-            inverse_mass: &self.inverse_mass[range],
-        }
+    /// Views of the ranges of consecutive bodies that cover the store, to be moved side by side.
+    pub(crate) fn split_mut(&mut self, ranges: impl Iterator<Item = Range<usize>>) -> Vec<ParticlesMut<'_>> {
+        let (mut position, mut displacement) = (&mut self.position[..], &mut self.displacement[..]);
+        let mut inverse_mass = &self.inverse_mass[..];
+        let take = |range: Range<usize>| {
+            let (x, rest_x) = std::mem::take(&mut position).split_at_mut(range.len());
+            let (d, rest_d) = std::mem::take(&mut displacement).split_at_mut(range.len());
+            let (w, rest_w) = inverse_mass.split_at(range.len());
+            (position, displacement, inverse_mass) = (rest_x, rest_d, rest_w);
+            ParticlesMut { position: x, displacement: d, inverse_mass: w }
+        };
+        ranges.map(take).collect()
     }
 
     /// Σ ½ m v², in J, with v = d/h.
@@ -157,6 +163,16 @@ mod tests {
             step.advance(&mut x, &mut d, a);
         }
         assert!((x - start).length() < 1e-5, "returned to {x}, started from {start}");
+    }
+
+    #[test]
+    fn split_views_cover_their_ranges() {
+        let mut particles = Particles::default();
+        let ranges =
+            [particles.extend(&[Vec3::X, Vec3::Y], 1.0, false), particles.extend(&[Vec3::Z], 2.0, true)];
+        let views = particles.split_mut(ranges.into_iter());
+        assert_eq!((&*views[0].position, &*views[1].position), (&[Vec3::X, Vec3::Y][..], &[Vec3::Z][..]));
+        assert_eq!(views[1].inverse_mass, [0.0]);
     }
 
     #[test]

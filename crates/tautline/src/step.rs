@@ -9,7 +9,7 @@ use crate::particles::{Particles, VerletStep};
 use crate::report::{Clock, Fault, Phase, StepReport, Stopwatch};
 use crate::rest::{put_to_sleep, wake_touched};
 use crate::solver::paper::{relax_bodies, separate};
-use crate::world::World;
+use crate::world::{Scratch, World};
 
 impl World {
     /// Advances the world by `dt` seconds, in `settings.substeps` equal substeps.
@@ -53,6 +53,9 @@ impl World {
         watch.lap(Phase::NarrowPhase);
         self.wake_touched(h);
         report.contacts += self.separate();
+        for _ in 1..self.settings.features_per_pair {
+            report.contacts += self.separate_again();
+        }
         watch.lap(Phase::Separate);
         let counts = relax_bodies(
             &mut self.bodies,
@@ -128,6 +131,14 @@ impl World {
         self.scratch.moved.clear();
         self.scratch.moved.resize(self.bodies.len(), None);
         separate(&self.scratch.contacts, &self.bodies, &mut self.particles, &mut self.scratch.moved)
+    }
+
+    /// Separates touching rigid bodies at the features that are deepest now.
+    fn separate_again(&mut self) -> usize {
+        let Scratch { narrow_phase, more_contacts, moved, .. } = &mut self.scratch;
+        let scene = Scene { bodies: &self.bodies, particles: &self.particles };
+        narrow_phase.find_rigid_contacts(scene, &mut self.pairs.pairs, more_contacts);
+        separate(more_contacts, &self.bodies, &mut self.particles, moved)
     }
 
     /// Freezes bodies with a non-finite particle where they were last known to be.

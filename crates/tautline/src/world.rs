@@ -50,6 +50,8 @@ pub(crate) struct Scratch {
     pub(crate) found: Vec<(u32, u32)>,
     pub(crate) narrow_phase: NarrowPhase,
     pub(crate) contacts: Vec<Contact>,
+    /// Of touching rigid bodies, beyond their first.
+    pub(crate) more_contacts: Vec<Contact>,
     pub(crate) moved: Vec<Option<Moved>>,
 }
 

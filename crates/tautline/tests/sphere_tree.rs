@@ -277,9 +277,10 @@ fn exercise(
     state: &mut WrappedSpheres,
     positions: &[Vec3],
 ) {
+    let mut stack = DescentStack::default();
+    descend_self(&*layered, &mut stack, |_, _| false, |_, _| ());
     layered.refit(positions).unwrap();
     wrapped.padding_needed(positions).unwrap();
-    let mut stack = DescentStack::default();
     descend_pair(&*layered, wrapped.pose(positions, state).unwrap(), &mut stack, |_, _| ());
     descend_self(&*layered, &mut stack, |_, _| false, |_, _| ());
     descend_self(wrapped.pose(positions, state).unwrap(), &mut stack, |_, _| false, |_, _| ());
@@ -358,6 +359,27 @@ fn coincident_features_make_a_balanced_tree() {
     let mut pairs = 0;
     descend_self(&tree, &mut DescentStack::default(), |_, _| false, |_, _| pairs += 1);
     assert_eq!(pairs, 100 * 99 / 2);
+}
+
+/// Spheres that make no sense but overlap: of negative radius, all in one place.
+struct Negative;
+
+impl SphereHierarchy for Negative {
+    fn leaf_count(&self) -> usize {
+        9
+    }
+
+    fn sphere(&mut self, _: usize) -> Sphere {
+        Sphere { center: Vec3::ZERO, radius: -1.0 }
+    }
+}
+
+#[test]
+fn a_descent_ends_on_any_spheres() {
+    let mut stack = DescentStack::default();
+    let mut pairs = 0;
+    descend_pair(Negative, Negative, &mut stack, |_, _| pairs += 1);
+    assert_eq!(pairs, 81);
 }
 
 #[test]

@@ -18,6 +18,7 @@ pub struct Rope {
     friction: f32,
     self_collision: bool,
     bending_compliance: Option<f32>,
+    least_angle: Option<f32>,
     pins: Vec<u32>,
 }
 
@@ -34,6 +35,7 @@ impl Rope {
             friction: 0.5,
             self_collision: false,
             bending_compliance: None,
+            least_angle: None,
             pins: Vec::new(),
         }
     }
@@ -79,6 +81,12 @@ impl Rope {
         Self { bending_compliance: Some(compliance), ..self }
     }
 
+    /// Keeps the angle at every inner particle at or above this, in rad, 0 to π: π = straight. A rope that cannot
+    /// fold sharply is thicker than its particles.
+    pub fn bend_limit(self, least_angle: f32) -> Self {
+        Self { least_angle: Some(least_angle), ..self }
+    }
+
     /// Pins a particle where it starts.
     pub fn pin(mut self, particle: u32) -> Self {
         self.pins.push(particle);
@@ -101,7 +109,7 @@ impl Rope {
         let parts = Parts {
             triangles: Vec::new(),
             sticks,
-            angles: angles(&self.points, self.bending_compliance),
+            angles: self.angles(),
             bendings: Vec::new(),
             leaves: (0..last).map(|i| Feature::Segment([i, i + 1])).collect(),
             leaf_margin: self.radius,
@@ -111,6 +119,27 @@ impl Rope {
         let body = Deformable::new(parts, &self.points)?;
         let Self { points, velocity, mass, friction, pins, .. } = self;
         Ok(BuiltDeformable { positions: points, body, velocity, mass, friction, pins })
+    }
+
+    /// At every inner particle, what holds it as laid out and what keeps it from folding.
+    fn angles(&self) -> Vec<Angle> {
+        let inner = 1..self.points.len() as u32 - 1;
+        let at_rest = |b: u32| {
+            angle_gradient(self.point(b - 1), self.point(b), self.point(b + 1)).map(|(angle, _)| angle)
+        };
+        let stiff = |b: u32| {
+            let (compliance, angle) = (self.bending_compliance?, at_rest(b)?);
+            Some(Angle { a: b - 1, b, c: b + 1, limit: AngleLimit::Target(angle), compliance })
+        };
+        let limited = |b: u32| {
+            let limit = AngleLimit::Range(self.least_angle?, std::f32::consts::PI);
+            Some(Angle { a: b - 1, b, c: b + 1, limit, compliance: 0.0 })
+        };
+        inner.flat_map(|b| [stiff(b), limited(b)]).flatten().collect()
+    }
+
+    fn point(&self, index: u32) -> Vec3 {
+        self.points[index as usize]
     }
 
     fn validate(&self) -> Result<(), Error> {
@@ -134,6 +163,9 @@ impl Rope {
         positive("mass", self.mass)?;
         positive("radius", self.radius)?;
         within("friction", self.friction, 0.0, 1e6, "a number from 0 to 1e6")?;
+        if let Some(angle) = self.least_angle {
+            within("least_angle", angle, 0.0, std::f32::consts::PI, "an angle from 0 to π (rad)")?;
+        }
         if let Some(length) = self.length {
             positive("length", length)?;
         }
@@ -145,13 +177,3 @@ impl Rope {
 }
 
 const MOST_SEGMENTS: u32 = 1_000_000;
-
-fn angles(points: &[Vec3], compliance: Option<f32>) -> Vec<Angle> {
-    let Some(compliance) = compliance else { return Vec::new() };
-    let at_rest = |b: u32| {
-        let [x, y, z] = [b - 1, b, b + 1].map(|i| points[i as usize]);
-        let (angle, _) = angle_gradient(x, y, z)?;
-        Some(Angle { a: b - 1, b, c: b + 1, limit: AngleLimit::Target(angle), compliance })
-    };
-    (1..points.len() as u32 - 1).filter_map(at_rest).collect()
-}

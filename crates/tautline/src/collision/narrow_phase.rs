@@ -4,12 +4,13 @@ use glam::Vec3;
 
 use super::contact::{Contact, Patch};
 use super::pair::Pair;
-use super::solid::{Solid, nearest_surface};
+use super::solid::{Plane, Solid, nearest_surface};
 use crate::body::{Body, Deformable, HalfSpace, Shape, Truss};
 use crate::geometry::distance;
 use crate::geometry::epa::Epa;
 use crate::geometry::sphere_tree::{DescentStack, WrappedSpheres, descend_pair, descend_self};
 use crate::geometry::support::Points;
+use crate::parallel;
 use crate::particles::Particles;
 
 /// Finds contacts. It holds only scratch memory, so that a step allocates nothing once that has grown.
@@ -19,8 +20,9 @@ pub(crate) struct NarrowPhase {
     spheres: Vec<WrappedSpheres>,
     stack: DescentStack,
     epa: Epa,
-    /// Leaves of a deformable body that are near triangles of a rigid one.
-    near: Vec<(u32, u32)>,
+    /// Leaves of a deformable body that are near triangles of a rigid one: leaf · 2³² + triangle.
+    near: Vec<u64>,
+    planes: Vec<Plane>,
 }
 
 /// Bodies with their particles, as the narrow phase reads them.
@@ -58,6 +60,7 @@ impl NarrowPhase {
         self.spheres.resize_with(scene.bodies.len(), WrappedSpheres::default);
         self.spheres.iter_mut().for_each(WrappedSpheres::invalidate);
         half_space_contacts(scene, contacts);
+        self.rigid_contacts(scene, pairs, contacts);
         for pair in pairs {
             self.pair_contacts(scene, pair, contacts);
         }
@@ -70,12 +73,32 @@ impl NarrowPhase {
         }
     }
 
-    fn pair_contacts(&mut self, scene: Scene<'_>, pair: &mut Pair, contacts: &mut Vec<Contact>) {
+    /// Looks again at the pairs of rigid bodies that touched, now that their deepest features have been
+    /// moved: each has one contact at most, at what is deepest now.
+    pub(crate) fn find_rigid_contacts(
+        &mut self,
+        scene: Scene<'_>,
+        pairs: &mut [Pair],
+        contacts: &mut Vec<Contact>,
+    ) {
+        contacts.clear();
+        self.rigid_contacts(scene, pairs, contacts);
+    }
+
+    /// One contact at most for each pair of rigid bodies that may touch.
+    fn rigid_contacts(&mut self, scene: Scene<'_>, pairs: &mut [Pair], contacts: &mut Vec<Contact>) {
+        let worthwhile = pairs.len() > WORTHWHILE;
+        parallel::filter_map(pairs, worthwhile, &mut self.epa, contacts, |epa, pair| {
+            let contact = if pair.may_touch { rigid_contact(scene, pair, epa) } else { None };
+            pair.may_touch = contact.is_some();
+            contact
+        });
+    }
+
+    /// Contacts of a pair of which one body at least is deformable.
+    fn pair_contacts(&mut self, scene: Scene<'_>, pair: &Pair, contacts: &mut Vec<Contact>) {
         let shape = |body: u32| &scene.bodies[body as usize].shape;
         match (shape(pair.a), shape(pair.b)) {
-            (Shape::Truss { truss: a }, Shape::Truss { truss: b }) => {
-                contacts.extend(self.rigid_contact(scene, pair, [a, b]));
-            }
             (Shape::Deformable(a), Shape::Deformable(b)) => {
                 self.deformable_contacts(scene, pair, [a, b], contacts);
             }
@@ -85,31 +108,8 @@ impl NarrowPhase {
             (Shape::Truss { truss: a }, Shape::Deformable(b)) => {
                 self.mixed_contacts(scene, (pair.b, b), (pair.a, a), contacts);
             }
-            (Shape::HalfSpace(_), _) | (_, Shape::HalfSpace(_)) => {}
+            _ => {}
         }
-    }
-
-    /// Rigid against rigid: the outermost spheres, then GJK and the hit face.
-    fn rigid_contact(&mut self, scene: Scene<'_>, pair: &mut Pair, trusses: [&Truss; 2]) -> Option<Contact> {
-        let bodies = [pair.a, pair.b];
-        let [x_a, x_b] = bodies.map(|body| scene.positions(body));
-        let (root_a, root_b) = (trusses[0].tree().sphere(0, x_a), trusses[1].tree().sphere(0, x_b));
-        if !root_a.overlaps(&root_b) {
-            return None;
-        }
-        let [hull_a, hull_b] = [(trusses[0], x_a), (trusses[1], x_b)]
-            .map(|(truss, x)| Points(&x[..truss.surface().vertex_count()]));
-        let found = distance::contact(&hull_a, &hull_b, &mut pair.axis, &mut self.epa);
-        let features = found.features.filter(|features| features.depth > 0.0)?;
-        Some(Contact {
-            body_a: pair.a,
-            body_b: pair.b,
-            a: Patch::feature(scene.first(pair.a), &features.a),
-            b: Some(Patch::feature(scene.first(pair.b), &features.b)),
-            normal: features.normal,
-            offset: features.normal.dot(features.point_a - features.point_b) - features.depth,
-            friction: scene.friction(pair.a, pair.b),
-        })
     }
 
     /// Deformable against deformable: leaves whose spheres overlap (paper, Eq 11).
@@ -151,19 +151,24 @@ impl NarrowPhase {
     ) {
         let positions = scene.positions(body_b);
         let Ok(pose) = truss.tree().pose(positions, &mut self.spheres[body_b as usize]) else { return };
-        self.near.clear();
-        let near = &mut self.near;
+        let Self { near, planes, .. } = self;
+        near.clear();
         descend_pair(&deformable.tree, pose, &mut self.stack, |leaf, face| {
-            near.push((leaf as u32, face as u32))
+            near.push((leaf as u64) << 32 | face as u64);
         });
         near.sort_unstable();
+        planes.clear();
+        if truss.is_convex() && !near.is_empty() {
+            let corners = |triangle: &[u32; 3]| triangle.map(|v| positions[v as usize]);
+            planes.extend(truss.triangles().iter().map(|triangle| Plane::of(corners(triangle))));
+        }
         let faces = truss.tree().topology().features();
-        let solid = Solid { positions, triangles: truss.triangles(), convex: truss.is_convex() };
-        for group in near.chunk_by(|x, y| x.0 == y.0) {
-            let leaf = group[0].0 as usize;
+        let solid = Solid { positions, triangles: truss.triangles(), planes };
+        for group in near.chunk_by(|x, y| x >> 32 == y >> 32) {
+            let leaf = (group[0] >> 32) as usize;
             let sphere = deformable.tree.leaf_spheres()[leaf];
             let thickness = deformable.thickness.min(sphere.radius);
-            let candidates = group.iter().map(|&(_, face)| faces[face as usize].particles());
+            let candidates = group.iter().map(|&pair| faces[pair as u32 as usize].particles());
             let Some(hit) = nearest_surface(sphere.center, thickness, candidates, &solid) else { continue };
             let a = Patch::mean(scene.first(body_a), deformable.tree.topology().features()[leaf].particles());
             let b = Patch::feature(scene.first(body_b), &hit.point);
@@ -180,6 +185,36 @@ impl NarrowPhase {
             });
         }
     }
+}
+
+/// From so many pairs on it pays to test them side by side.
+const WORTHWHILE: usize = 256;
+
+/// Rigid against rigid: the outermost spheres, then GJK and the hit face.
+fn rigid_contact(scene: Scene<'_>, pair: &mut Pair, epa: &mut Epa) -> Option<Contact> {
+    let bodies = [pair.a, pair.b];
+    let [Shape::Truss { truss: truss_a }, Shape::Truss { truss: truss_b }] =
+        bodies.map(|body| &scene.bodies[body as usize].shape)
+    else {
+        return None;
+    };
+    let [x_a, x_b] = bodies.map(|body| scene.positions(body));
+    if !truss_a.tree().sphere(0, x_a).overlaps(&truss_b.tree().sphere(0, x_b)) {
+        return None;
+    }
+    let hull_a = Points(&x_a[..truss_a.surface().vertex_count()]);
+    let hull_b = Points(&x_b[..truss_b.surface().vertex_count()]);
+    let found = distance::contact(&hull_a, &hull_b, &mut pair.axis, epa);
+    let features = found.features.filter(|features| features.depth > 0.0)?;
+    Some(Contact {
+        body_a: pair.a,
+        body_b: pair.b,
+        a: Patch::feature(scene.first(pair.a), &features.a),
+        b: Some(Patch::feature(scene.first(pair.b), &features.b)),
+        normal: features.normal,
+        offset: features.normal.dot(features.point_a - features.point_b) - features.depth,
+        friction: scene.friction(pair.a, pair.b),
+    })
 }
 
 /// A contact of two leaves, which are moved apart along the line through their centres until their spheres

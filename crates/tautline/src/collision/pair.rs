@@ -12,6 +12,8 @@ pub(crate) struct Pair {
     pub(crate) b: u32,
     /// From A to B: what separated them last, or their contact normal; zero = unknown.
     pub(crate) axis: Vec3,
+    /// False once two bodies have been found apart, or not both rigid, in this substep.
+    pub(crate) may_touch: bool,
 }
 
 /// The pairs of the last substep, ascending.
@@ -31,7 +33,7 @@ impl PairCache {
         for &(a, b) in found {
             while known.next_if(|pair| (pair.a, pair.b) < (a, b)).is_some() {}
             let axis = known.next_if(|pair| (pair.a, pair.b) == (a, b)).map_or(Vec3::ZERO, |pair| pair.axis);
-            self.pairs.push(Pair { a, b, axis });
+            self.pairs.push(Pair { a, b, axis, may_touch: true });
         }
     }
 

@@ -11,7 +11,27 @@ use crate::geometry::feature::FeaturePoint;
 pub(crate) struct Solid<'a> {
     pub(crate) positions: &'a [Vec3],
     pub(crate) triangles: &'a [[u32; 3]],
-    pub(crate) convex: bool,
+    /// Of a convex surface the planes of its faces; empty for any other.
+    pub(crate) planes: &'a [Plane],
+}
+
+/// The plane n·x = offset, n being unit or, for a face without area, zero.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Plane {
+    normal: Vec3,
+    offset: f32,
+}
+
+impl Plane {
+    /// Of a triangle, n pointing to where it is seen counter-clockwise.
+    pub(crate) fn of([a, b, c]: [Vec3; 3]) -> Self {
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        Self { normal, offset: normal.dot(a) }
+    }
+
+    fn height(&self, point: Vec3) -> f32 {
+        self.normal.dot(point) - self.offset
+    }
 }
 
 /// The point of a surface that is nearest to some other point.
@@ -32,6 +52,10 @@ pub(crate) fn nearest_surface<'a>(
     candidates: impl Iterator<Item = &'a [u32]>,
     solid: &Solid<'_>,
 ) -> Option<NearestPoint> {
+    let height = solid.height(center);
+    if height.is_some_and(|height| height >= thickness) {
+        return None;
+    }
     let mut nearest: Option<(f32, [u32; 3], [f64; 3], Vec3)> = None;
     for corners in candidates {
         let &[a, b, c] = corners else { continue };
@@ -46,8 +70,10 @@ pub(crate) fn nearest_surface<'a>(
     }
     let (squared, corners, weights, away) = nearest?;
     let [a, b, c] = corners.map(|v| solid.positions[v as usize]);
-    let face_normal = (b - a).cross(c - a).normalize_or_zero();
-    let inside = solid.contains(center);
+    let inside = match height {
+        Some(height) => height <= 0.0,
+        None => is_inside(center, solid.positions, solid.triangles),
+    };
     let distance = squared.sqrt();
     if !inside && distance >= thickness {
         return None;
@@ -55,18 +81,44 @@ pub(crate) fn nearest_surface<'a>(
     // On the surface itself the way out is the face's normal.
     let on_surface = distance <= 1e-6 * (1.0 + thickness);
     let distance = if inside { -distance } else { distance };
-    let outward = if on_surface { face_normal } else { away / distance };
+    let outward = if on_surface { Plane::of([a, b, c]).normal } else { away / distance };
     Some(NearestPoint { point: FeaturePoint::new(corners, weights), outward, distance })
 }
 
 impl Solid<'_> {
-    fn contains(&self, point: Vec3) -> bool {
-        if !self.convex {
-            return is_inside(point, self.positions, self.triangles);
+    /// How far `point` is above the highest of a convex surface's planes, in m: at most its distance, and
+    /// negative inside. `None` for other surfaces.
+    fn height(&self, point: Vec3) -> Option<f32> {
+        self.planes.iter().map(|plane| plane.height(point)).reduce(f32::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::primitives;
+
+    fn nearest(center: Vec3, thickness: f32, convex: bool) -> Option<NearestPoint> {
+        let cube = primitives::cube(2.0).unwrap();
+        let corners = |t: &[u32; 3]| t.map(|v| cube.positions[v as usize]);
+        let planes: Vec<Plane> = cube.triangles.iter().map(|t| Plane::of(corners(t))).collect();
+        let planes = if convex { &planes[..] } else { &[] };
+        let solid = Solid { positions: &cube.positions, triangles: &cube.triangles, planes };
+        nearest_surface(center, thickness, cube.triangles.iter().map(|t| &t[..]), &solid)
+    }
+
+    #[test]
+    fn inside_outside_and_on_the_surface_of_a_cube() {
+        for convex in [true, false] {
+            let inside = nearest(Vec3::new(0.7, 0.1, 0.2), 0.0, convex).unwrap();
+            assert!((inside.distance + 0.3).abs() < 1e-6 && inside.outward.distance(Vec3::X) < 1e-6);
+            let near_corner = nearest(Vec3::splat(1.1), 0.2, convex).unwrap();
+            assert!((near_corner.distance - 0.1 * 3f32.sqrt()).abs() < 1e-6);
+            assert!(near_corner.outward.distance(Vec3::ONE.normalize()) < 1e-5);
+            assert!(nearest(Vec3::splat(1.1), 0.1, convex).is_none(), "beyond the thickness");
+            assert!(nearest(Vec3::new(0.0, 1.5, 0.0), 0.0, convex).is_none());
+            let touching = nearest(Vec3::new(0.2, 1.0, -0.3), 0.1, convex).unwrap();
+            assert!(touching.distance.abs() < 1e-6 && touching.outward.distance(Vec3::Y) < 1e-6);
         }
-        self.triangles.iter().all(|triangle| {
-            let [a, b, c] = triangle.map(|v| self.positions[v as usize]);
-            (b - a).cross(c - a).dot(point - a) <= 0.0
-        })
     }
 }

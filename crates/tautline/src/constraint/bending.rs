@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::AngleLimit;
 
-/// The dihedral angle at an edge: 0 = flat, positive when the normals turn about the edge's direction.
+/// The dihedral angle at an edge: 0 = flat, positive when the surface folds towards its normals (a valley).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Bending {
     /// The edge's ends, counted within the body, as the first triangle runs along it.
@@ -32,7 +32,7 @@ pub(crate) fn gradient(wings: [Vec3; 2], edge: [Vec3; 2]) -> Option<(f32, [Vec3;
         return None;
     }
     let direction = along / length;
-    let angle = libm::atan2f(normal_0.cross(normal_1).dot(direction), normal_0.dot(normal_1));
+    let angle = libm::atan2f(normal_1.cross(normal_0).dot(direction), normal_0.dot(normal_1));
     let (n0, n1) = (normal_0 / squared_0, normal_1 / squared_1);
     let part = |wing: Vec3, end: Vec3| (wing - end).dot(direction);
     let start = n0 * part(wings[0], edge[1]) + n1 * part(wings[1], edge[1]);
@@ -75,8 +75,11 @@ mod tests {
         let edge = [Vec3::ZERO, Vec3::X];
         let (flat, _) = gradient([Vec3::Z, -Vec3::Z], edge).unwrap();
         assert_eq!(flat, 0.0);
-        let (right, _) = gradient([Vec3::Z, Vec3::Y], edge).unwrap();
-        assert!((right.abs() - std::f32::consts::FRAC_PI_2).abs() < 1e-6);
+        // Triangle (edge, wing 0) seen counter-clockwise from +y when wing 0 is at −z.
+        let (valley, _) = gradient([-Vec3::Z, Vec3::Y], edge).unwrap();
+        let (ridge, _) = gradient([-Vec3::Z, -Vec3::Y], edge).unwrap();
+        assert!((valley - std::f32::consts::FRAC_PI_2).abs() < 1e-6);
+        assert_eq!(ridge, -valley);
         assert_eq!(gradient([Vec3::X * 2.0, Vec3::Y], edge), None);
     }
 }

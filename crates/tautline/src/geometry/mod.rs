@@ -11,4 +11,4 @@ mod sphere;
 pub mod sphere_tree;
 pub mod support;
 
-pub use sphere::{EnclosingSphere, Sphere, Support, circumsphere, smallest_enclosing_sphere};
+pub use sphere::{EnclosingSphere, Sphere, SupportPoints, circumsphere, smallest_enclosing_sphere};

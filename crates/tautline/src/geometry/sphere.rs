@@ -8,7 +8,7 @@ mod enclosing;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-pub use enclosing::{EnclosingSphere, Support, circumsphere, smallest_enclosing_sphere};
+pub use enclosing::{EnclosingSphere, SupportPoints, circumsphere, smallest_enclosing_sphere};
 
 /// Widening that covers the rounding of a distance: 4 units in the last place.
 const DISTANCE_ROUNDING: f32 = 1.0 + 4.0 * f32::EPSILON;

@@ -21,7 +21,7 @@ const MAX_PIVOTS: usize = 1000;
 /// The points on a smallest enclosing sphere that determine it. Its centre is their weighted mean, and stays
 /// so under any rigid (indeed affine) motion of the points.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Support {
+pub struct SupportPoints {
     /// Indices of the support points; from `count` on, the first one is repeated.
     pub points: [u32; 4],
     /// Barycentric weights of the centre: not negative, their sum 1; 0 from `count` on.
@@ -36,7 +36,7 @@ pub struct EnclosingSphere {
     /// The sphere; it contains every point in exact arithmetic.
     pub sphere: Sphere,
     /// The points that determine it.
-    pub support: Support,
+    pub support: SupportPoints,
 }
 
 /// The smallest sphere around `points`; duplicates and points on a line, plane or sphere are fine.
@@ -164,10 +164,10 @@ impl Basis {
         best
     }
 
-    fn support(&self) -> Support {
+    fn support(&self) -> SupportPoints {
         // Rounding can leave a weight at -1e-17, which must not reach the interface as negative.
         let weights = self.weights.map(|weight| weight.max(0.0) as f32);
-        Support { points: self.points, weights, count: self.count as u8 }
+        SupportPoints { points: self.points, weights, count: self.count as u8 }
     }
 }
 

@@ -100,7 +100,8 @@ fn descend(
             }
             let (radius_a, radius_b) = (sphere(true, node_a).radius, sphere(false, node_b).radius);
             let split_a = !a_is_leaf && (b_is_leaf || radius_a * SIMILAR >= radius_b);
-            let split_b = !b_is_leaf && (a_is_leaf || radius_b * SIMILAR >= radius_a);
+            // Whatever the radii are, one of the two is split: the descent ends even on spheres that make no sense.
+            let split_b = !b_is_leaf && (!split_a || radius_b * SIMILAR >= radius_a);
             for child_a in children(a, split_a) {
                 let sphere_a = sphere(true, child_a as usize);
                 for child_b in children(b, split_b) {

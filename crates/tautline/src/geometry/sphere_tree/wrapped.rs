@@ -7,7 +7,7 @@ use super::build::{Feature, Topology, invalid};
 use super::descend::SphereHierarchy;
 use crate::Error;
 use crate::geometry::Sphere;
-use crate::geometry::{Support, smallest_enclosing_sphere};
+use crate::geometry::{SupportPoints, smallest_enclosing_sphere};
 
 /// A sphere tree for bodies that keep their shape. It holds no positions, so all bodies of one shape share it; each
 /// has its own [`WrappedSpheres`], and [`WrappedTree::pose`] puts the two and the particles together.
@@ -28,7 +28,7 @@ pub struct WrappedTree {
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct WrappedNode {
-    support: Support,
+    support: SupportPoints,
     /// Of the smallest sphere in the rest pose, in m; without padding.
     rest_radius: f32,
 }
@@ -143,7 +143,7 @@ impl WrappedTree {
             return Err(invalid("nodes".into(), "there must be one for each node"));
         }
         let sound = |node: &WrappedNode| {
-            let Support { points, weights, count } = node.support;
+            let SupportPoints { points, weights, count } = node.support;
             (1..=4).contains(&count)
                 && points.iter().all(|&point| point < self.topology.particle_count() as u32)
                 && weights.iter().all(|weight| (0.0..=1.0).contains(weight))

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap, VecDeque};
 use glam::DVec3;
 
 use super::boxes::Aabb;
-use super::predicates::{Face, Tet, faces_of, in_sphere, orient, reversed, tet_crosses_face, tet_on};
+use super::predicates::{Face, Tet, faces_of, in_sphere, orient, reach, reversed, tet_crosses_face, tet_on};
 
 /// Apexes tried for a face, in Delaunay order, before the face is left to the search.
 const TRIES: usize = 24;
@@ -63,8 +63,14 @@ impl<'a> Front<'a> {
     /// The apex whose sphere through the face is the emptiest among those that fit.
     fn apex(&self, face: Face) -> Option<u32> {
         let is_inward = |v: u32| !face.contains(&v) && orient(self.points, face, v) < 0.0;
-        let mut inward: Vec<u32> =
-            self.uses.iter().filter(|(v, uses)| **uses > 0 && is_inward(**v)).map(|(v, _)| *v).collect();
+        let used = self.uses.iter().filter(|(_, uses)| **uses > 0).map(|(v, _)| *v);
+        let mut ranked: Vec<(f64, u32)> =
+            used.filter(|&v| is_inward(v)).map(|v| (reach(self.points, face, v), v)).collect();
+        if ranked.len() > 2 * TRIES {
+            ranked.select_nth_unstable_by(2 * TRIES, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            ranked.truncate(2 * TRIES);
+        }
+        let mut inward: Vec<u32> = ranked.into_iter().map(|(_, v)| v).collect();
         for _ in 0..TRIES {
             let closer = |a: u32, b: u32| if in_sphere(self.points, &tet_on(face, a), b) { b } else { a };
             let best = inward.iter().copied().reduce(closer)?;

@@ -76,13 +76,6 @@ impl Filling {
         self.tets.iter().flatten().copied().collect()
     }
 
-    /// Renumbers the vertices after one that is no longer used.
-    pub(super) fn forget_vertex(&mut self, vertex: u32) {
-        let renumber = |v: u32| if v > vertex { v - 1 } else { v };
-        self.owner = self.owner.iter().map(|(f, &t)| (f.map(renumber), t)).collect();
-        self.tets.iter_mut().flatten().for_each(|tet| *tet = tet.map(renumber));
-    }
-
     /// The cavity that all tetrahedra around a vertex leave.
     pub(super) fn star(&self, vertex: u32) -> Cavity {
         let mut cavity = Cavity { faces: BTreeSet::new(), tets: BTreeSet::new() };

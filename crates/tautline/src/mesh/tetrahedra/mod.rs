@@ -18,14 +18,14 @@ mod search;
 mod steiner;
 mod surface;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DVec3, Vec3};
 
 use super::TriMesh;
 use crate::{Error, MeshDefect};
 use filling::{Cavity, Filling};
-use predicates::Face;
+use predicates::{Face, Tet};
 
 /// The inside of a closed surface as tetrahedra.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,8 +40,10 @@ pub struct Tetrahedra {
 
 /// How often a cavity is widened by the tetrahedra around it before an interior point is accepted.
 const WIDENINGS: usize = 4;
-/// How often points are seeded before the mesh is refused.
-const MAX_SEEDINGS: usize = 40;
+/// Seedings in a row that do not shrink what is empty before the mesh is refused.
+const MAX_STALLED: usize = 24;
+/// Where on the way through the solid points are put: half way, or else elsewhere.
+const SHARES: [f64; 5] = [0.5, 0.3, 0.7, 0.1, 0.4];
 
 /// Divides the inside of a closed mesh into tetrahedra. No vertex of the surface is moved or added, and
 /// every triangle is a face of exactly one tetrahedron. The same mesh gives the same result to the bit.
@@ -58,17 +60,13 @@ pub fn tetrahedralise(mesh: &TriMesh) -> Result<Tetrahedra, Error> {
     for tet in conforming::conforming(&points, &surface, &delaunay) {
         filling.place(tet);
     }
-    for tet in advance::advance(&points, filling.front(), &[]) {
-        filling.place(tet);
+    for cavity in filling.cavities(&points) {
+        filling.replace(&cavity, advance::advance(&points, &cavity.faces, &[]));
     }
     fill_cavities(&mut points, &mut filling, &surface.into_iter().collect())?;
     let first_interior = mesh.positions.len();
-    remove_interior_points(&mut points, &mut filling, first_interior);
-    Ok(Tetrahedra {
-        interior_points: points.len() - first_interior,
-        tetrahedra: filling.tetrahedra(),
-        points: points.iter().map(|p| p.as_vec3()).collect(), // exact: every point came from an f32 one
-    })
+    remove_interior_points(&points, &mut filling, first_interior);
+    Ok(numbered(&points, filling.tetrahedra(), first_interior))
 }
 
 /// Fills what the advancing front left, cavity by cavity: without a new point if possible, or with one;
@@ -78,28 +76,56 @@ fn fill_cavities(
     filling: &mut Filling,
     surface: &BTreeSet<Face>,
 ) -> Result<(), Error> {
-    let mut seedings = 0;
-    while let Some(cavity) = filling.cavities(points).into_iter().min_by_key(|cavity| cavity.faces.len()) {
-        let rings = rings(filling, &cavity);
+    let (mut smallest_front, mut stalled) = (usize::MAX, 0);
+    loop {
+        let mut cavities = filling.cavities(points);
+        if cavities.is_empty() {
+            return Ok(());
+        }
+        cavities.sort_by_key(|cavity| cavity.faces.len());
+        let cavity = &cavities[stalled % cavities.len()];
+        let rings = rings(filling, cavity);
         let searched = rings.iter().find_map(|r| Some((r.clone(), search::search(points, &r.faces)?)));
-        if let Some((ring, tets)) = searched.or_else(|| steiner::star(points, filling, &cavity)) {
+        if let Some((ring, tets)) = searched.or_else(|| steiner::star(points, filling, cavity)) {
             filling.replace(&ring, tets);
             continue;
         }
-        if seedings == MAX_SEEDINGS {
-            return Err(unfilled(points, &cavity));
+        stalled = if filling.front().len() < smallest_front { 0 } else { stalled + 1 };
+        smallest_front = smallest_front.min(filling.front().len());
+        if stalled == MAX_STALLED {
+            return Err(unfilled(points, cavity));
         }
-        let ring = &rings[1 + seedings % 2];
-        let first = points.len() as u32;
-        let bare: Vec<Face> = cavity.faces.intersection(surface).copied().collect();
-        steiner::seed(points, surface, &bare, [0.5, 0.3, 0.7, 0.1][seedings / 2 % 4]);
-        let mut loose = filling.loose_vertices(ring);
-        loose.extend(first..points.len() as u32);
-        let tets = advance::advance(points, &ring.faces, &loose);
-        filling.replace(ring, tets);
-        seedings += 1;
+        reseed(
+            points,
+            filling,
+            surface,
+            (cavity, &rings[1 + stalled % WIDENINGS]),
+            SHARES[stalled % SHARES.len()],
+        );
     }
-    Ok(())
+}
+
+/// Puts points behind the cavity's surface triangles (behind all its faces if it has none) and lets the
+/// front advance through the wide neighbourhood around it.
+fn reseed(
+    points: &mut Vec<DVec3>,
+    filling: &mut Filling,
+    surface: &BTreeSet<Face>,
+    (cavity, wide): (&Cavity, &Cavity),
+    share: f64,
+) {
+    let first = points.len() as u32;
+    let bare: Vec<Face> = cavity.faces.intersection(surface).copied().collect();
+    if bare.is_empty() {
+        let faces: Vec<Face> = cavity.faces.iter().copied().collect();
+        steiner::seed(points, &cavity.faces, &faces, share);
+    } else {
+        steiner::seed(points, surface, &bare, share);
+    }
+    let mut loose = filling.loose_vertices(wide);
+    loose.extend(first..points.len() as u32);
+    let tets = advance::advance(points, &wide.faces, &loose);
+    filling.replace(wide, tets);
 }
 
 /// The cavity, and wider and wider ones around it.
@@ -127,14 +153,23 @@ fn unfilled(points: &[DVec3], cavity: &Cavity) -> Error {
 }
 
 /// Takes out the interior points whose surroundings can be filled without them.
-fn remove_interior_points(points: &mut Vec<DVec3>, filling: &mut Filling, first: usize) {
-    for vertex in (first..points.len()).rev() {
-        let rings = rings(filling, &filling.star(vertex as u32));
-        let found = rings.iter().take(2).find_map(|r| search::search(points, &r.faces).map(|t| (r, t)));
-        if let Some((ring, tets)) = found {
+fn remove_interior_points(points: &[DVec3], filling: &mut Filling, first: usize) {
+    for vertex in (first as u32..points.len() as u32).rev() {
+        let star = filling.star(vertex);
+        let rings = [star.clone(), filling.widened(&star)];
+        let searched = rings.iter().find_map(|r| Some((r, search::search(points, &r.faces)?)));
+        if let Some((ring, tets)) = searched {
             filling.replace(ring, tets);
-            filling.forget_vertex(vertex as u32);
-            points.remove(vertex);
         }
     }
+}
+
+/// The result, with the interior points that are in use numbered anew.
+fn numbered(points: &[DVec3], mut tetrahedra: Vec<Tet>, first: usize) -> Tetrahedra {
+    let used: BTreeSet<u32> = tetrahedra.iter().flatten().copied().filter(|&v| v as usize >= first).collect();
+    let numbers: BTreeMap<u32, u32> = used.iter().copied().zip(first as u32..).collect();
+    tetrahedra.iter_mut().flatten().for_each(|v| *v = numbers.get(v).copied().unwrap_or(*v));
+    let kept = points[..first].iter().chain(used.iter().map(|&v| &points[v as usize]));
+    // Exact: every point came from an f32 one.
+    Tetrahedra { points: kept.map(|p| p.as_vec3()).collect(), tetrahedra, interior_points: used.len() }
 }

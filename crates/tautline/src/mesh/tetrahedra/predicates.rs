@@ -85,6 +85,17 @@ pub(super) fn in_sphere(points: &[DVec3], tet: &Tet, p: u32) -> bool {
     false
 }
 
+/// Height of the sphere's centre over the face: Delaunay tetrahedra have the
+/// lowest. In units of the face's normal, and rounded: for sorting only.
+pub(super) fn reach(points: &[DVec3], face: Face, apex: u32) -> f64 {
+    let [a, b, c, d] = tet_on(face, apex).map(|v| points[v as usize]);
+    let (u, v, w) = (b - a, c - a, d - a);
+    let normal = u.cross(v);
+    let foot = (normal.cross(u) * v.length_squared() + v.cross(normal) * u.length_squared())
+        / (2.0 * normal.length_squared());
+    (w.length_squared() - 2.0 * w.dot(foot)) / (2.0 * w.dot(normal))
+}
+
 /// Orientation of three points seen along `axis`.
 fn orient_along(points: &[DVec3], axis: usize, [a, b, c]: Face) -> f64 {
     let at = |i: u32| {

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::boxes::Aabb;
 use super::filling::vertices;
-use super::predicates::{Face, Tet, faces_of, orient, reversed, tet_crosses_face, tet_on};
+use super::predicates::{Face, Tet, faces_of, orient, reach, reversed, tet_crosses_face, tet_on};
 
 /// Cavities with more faces are not searched.
 pub(super) const MAX_FACES: usize = 72;
@@ -52,18 +52,8 @@ impl Search<'_> {
             !face.contains(&v) && orient(self.points, face, v) < 0.0 && self.fits(&tet_on(face, v), faces)
         };
         let mut apexes: Vec<u32> = corners.iter().copied().filter(|&v| is_choice(v)).collect();
-        apexes.sort_by(|&a, &b| self.reach(face, a).total_cmp(&self.reach(face, b)));
+        apexes.sort_by(|&a, &b| reach(self.points, face, a).total_cmp(&reach(self.points, face, b)));
         apexes
-    }
-
-    /// Height of the sphere's centre over the face: Delaunay tetrahedra have the lowest.
-    fn reach(&self, face: Face, apex: u32) -> f64 {
-        let [a, b, c, d] = tet_on(face, apex).map(|v| self.points[v as usize]);
-        let (u, v, w) = (b - a, c - a, d - a);
-        let normal = u.cross(v);
-        let foot = (normal.cross(u) * v.length_squared() + v.cross(normal) * u.length_squared())
-            / (2.0 * normal.length_squared());
-        (w.length_squared() - 2.0 * w.dot(foot)) / (2.0 * w.dot(normal))
     }
 
     fn fill(&mut self, front: Vec<Open>) -> bool {

@@ -5,6 +5,7 @@ use crate::body::{Body, Deformable, Shape};
 use crate::constraint::{
     Angle, Bending, Stick, angle_gradient, bending_gradient, multiplier_step, stick_scale,
 };
+use crate::parallel;
 use crate::particles::{Particles, ParticlesMut};
 use crate::settings::{Ordering, Relaxation};
 
@@ -33,23 +34,49 @@ pub(crate) fn relax_bodies(
     settings: &Relaxation,
     h: f32,
 ) -> Counts {
-    let mut counts = Counts::default();
-    for (body, moved) in bodies.iter_mut().zip(moved).filter(|(body, _)| body.is_awake()) {
-        let first = body.particles.start;
-        let mut view = particles.slice_mut(body.particles.clone());
-        counts += match &mut body.shape {
+    let views = particles.split_mut(bodies.iter().map(|body| body.particles.clone()));
+    let mut tasks: Vec<Task<'_>> = bodies
+        .iter_mut()
+        .zip(views)
+        .zip(moved)
+        .filter(|((body, _), _)| body.is_awake())
+        .map(|((body, particles), &moved)| Task { body, particles, moved, counts: Counts::default() })
+        .collect();
+    let particle_count: usize = tasks.iter().map(|task| task.particles.position.len()).sum();
+    parallel::for_each(&mut tasks, particle_count > WORTHWHILE, |task| task.relax(settings, h));
+    tasks.iter().fold(Counts::default(), |mut sum, task| {
+        sum += task.counts;
+        sum
+    })
+}
+
+/// From so many particles on it pays to relax bodies side by side.
+const WORTHWHILE: usize = 2000;
+
+/// A body to be relaxed.
+struct Task<'a> {
+    body: &'a mut Body,
+    particles: ParticlesMut<'a>,
+    moved: Option<Moved>,
+    counts: Counts,
+}
+
+impl Task<'_> {
+    fn relax(&mut self, settings: &Relaxation, h: f32) {
+        let first = self.body.particles.start;
+        self.counts = match &mut self.body.shape {
             Shape::Truss { truss } => {
                 let lists = truss.ordered_lists();
-                let order = moved
+                let order = self
+                    .moved
                     .filter(|_| settings.ordering == Ordering::ByDistance)
                     .map(|moved| lists.list(moved.particle - first));
-                relax_sticks(&mut view, truss.sticks(), order, settings)
+                relax_sticks(&mut self.particles, truss.sticks(), order, settings)
             }
-            Shape::Deformable(deformable) => relax_deformable(&mut view, deformable, settings, h),
+            Shape::Deformable(deformable) => relax_deformable(&mut self.particles, deformable, settings, h),
             Shape::HalfSpace(_) => Counts::default(),
         };
     }
-    counts
 }
 
 fn relax_sticks(
@@ -59,10 +86,11 @@ fn relax_sticks(
     settings: &Relaxation,
 ) -> Counts {
     let mut total = Counts::default();
-    for _ in 0..settings.sweeps {
+    for sweep in 0..settings.sweeps {
         let counts = match order {
             Some(list) => sweep_sticks(particles, sticks, list.iter().map(|&index| index as usize), settings),
-            None => sweep_sticks(particles, sticks, 0..sticks.len(), settings),
+            None if sweep % 2 == 0 => sweep_sticks(particles, sticks, 0..sticks.len(), settings),
+            None => sweep_sticks(particles, sticks, (0..sticks.len()).rev(), settings),
         };
         total += counts;
         if counts.relaxations == 0 {
@@ -215,13 +243,18 @@ mod tests {
         particles
     }
 
+    fn whole(particles: &mut Particles) -> ParticlesMut<'_> {
+        let all = 0..particles.len();
+        particles.split_mut(std::iter::once(all)).remove(0)
+    }
+
     #[test]
     fn a_stick_within_tolerance_is_visited_but_not_relaxed() {
         let settings = Settings::paper().relaxation;
         for (length, relaxations) in [(1.009, 0), (1.011, 1), (0.991, 0), (0.989, 1)] {
             let mut particles = store(&[Vec3::ZERO, Vec3::X * length]);
             let sticks = [Stick { a: 0, b: 1, rest_length: 1.0 }];
-            let counts = sweep_sticks(&mut particles.slice_mut(0..2), &sticks, 0..1, &settings);
+            let counts = sweep_sticks(&mut whole(&mut particles), &sticks, 0..1, &settings);
             assert_eq!(counts, Counts { visits: 1, relaxations }, "length {length}");
         }
     }
@@ -231,25 +264,25 @@ mod tests {
         let settings = Settings::paper().relaxation;
         let sticks = [Stick { a: 0, b: 1, rest_length: 1.0 }];
         let mut coincident = store(&[Vec3::X, Vec3::X]);
-        sweep_sticks(&mut coincident.slice_mut(0..2), &sticks, 0..1, &settings);
+        sweep_sticks(&mut whole(&mut coincident), &sticks, 0..1, &settings);
         assert_eq!(coincident.position, [Vec3::X, Vec3::X]);
         let mut pinned = Particles::default();
         pinned.extend(&[Vec3::ZERO, Vec3::X * 3.0], 1.0, true);
-        sweep_sticks(&mut pinned.slice_mut(0..2), &sticks, 0..1, &settings);
+        sweep_sticks(&mut whole(&mut pinned), &sticks, 0..1, &settings);
         assert_eq!(pinned.position, [Vec3::ZERO, Vec3::X * 3.0]);
     }
 
     #[test]
     fn rigid_angles_and_bendings_reach_their_target() {
         let mut bent = store(&[Vec3::X, Vec3::ZERO, Vec3::Y]);
-        let limit = AngleLimit::Range(2.0, 3.0);
+        let limit = AngleLimit::Target(2.0);
         let angles = [Angle { a: 0, b: 1, c: 2, limit, compliance: 0.0 }];
         let mut folded = store(&[Vec3::Z, Vec3::Y, Vec3::ZERO, Vec3::X]);
         let limit = AngleLimit::Target(0.0);
         let bendings = [Bending { edge: [2, 3], wings: [0, 1], limit, compliance: 0.0 }];
         for _ in 0..50 {
-            sweep_angles(&mut bent.slice_mut(0..3), &angles, &mut [0.0], 1.0);
-            sweep_bendings(&mut folded.slice_mut(0..4), &bendings, &mut [0.0], 1.0);
+            sweep_angles(&mut whole(&mut bent), &angles, &mut [0.0], 1.0);
+            sweep_bendings(&mut whole(&mut folded), &bendings, &mut [0.0], 1.0);
         }
         let x = &bent.position;
         let angle = angle_gradient(x[0], x[1], x[2]).unwrap().0;

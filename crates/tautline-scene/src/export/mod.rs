@@ -1,0 +1,69 @@
+//! Recordings out: pictures and animations.
+
+mod atomic;
+mod gif;
+mod glb;
+mod palette;
+mod png;
+
+use std::path::Path;
+
+use crate::Error;
+use crate::recording::Recording;
+use crate::render::{Renderer, Settings};
+
+pub use atomic::write_atomically;
+pub use gif::write_gif;
+pub use glb::write_glb;
+pub use png::write_png;
+
+/// The extensions that [`write`] knows.
+pub const FORMATS: &str = ".gif, .glb, .png";
+
+/// How a recording is written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options {
+    /// Size, smoothness and camera of pictures.
+    pub picture: Settings,
+    /// The most pictures a second in a GIF, 1 to 50.
+    pub gif_frame_rate: f32,
+    /// The frame of a PNG; `None` is the last.
+    pub png_frame: Option<usize>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { picture: Settings::default(), gif_frame_rate: 30.0, png_frame: None }
+    }
+}
+
+/// Writes a recording in the format that the extension of `path` names: `.glb` (animated glTF), `.gif` or
+/// `.png` (one frame). `progress` is told (steps done, steps to do).
+///
+/// # Errors
+/// [`Error::UnsupportedFormat`] for another extension; otherwise those of [`write_glb`], [`write_gif`],
+/// [`Renderer::new`] and [`write_png`].
+pub fn write(
+    recording: &Recording,
+    path: &Path,
+    options: &Options,
+    progress: &mut dyn FnMut(usize, usize),
+) -> Result<(), Error> {
+    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
+    match extension.as_str() {
+        "gif" => return write_gif(recording, path, options.picture, options.gif_frame_rate, progress),
+        "glb" => write_glb(recording, path)?,
+        "png" => {
+            let last = recording.frame_count() - 1;
+            let frame = options.png_frame.unwrap_or(last);
+            if frame > last {
+                let problem = format!("there is no frame {frame}: the last is {last}");
+                return Err(Error::Unsupported { option: "png_frame", problem });
+            }
+            write_png(&Renderer::new(recording, options.picture)?.frame(frame), path)?;
+        }
+        _ => return Err(Error::UnsupportedFormat { path: path.to_owned(), supported: FORMATS }),
+    }
+    progress(1, 1);
+    Ok(())
+}

@@ -1,0 +1,85 @@
+//! What the checks need besides Rust: installed on Debian as root; elsewhere the line that installs it is printed.
+
+use crate::command::{exists, program, run};
+use crate::files::text_files;
+use crate::project::Project;
+use crate::steps::Outcome;
+use crate::tidy::unsafe_lines;
+
+/// The Khronos validator of GLB files, as an npm package.
+const VALIDATOR: &str = "tests/gltf-validator";
+/// On Debian.
+const INSTALL_NODE: &str = "apt-get install --yes --no-install-recommends nodejs npm";
+
+/// rustfmt, clippy, Node and the npm packages that tests use.
+pub(crate) fn setup(project: &Project) -> Result<Outcome, String> {
+    for (component, tool) in [("rustfmt", "cargo-fmt"), ("clippy", "cargo-clippy")] {
+        if !exists(tool) {
+            run(&mut program(project, "rustup", &["component", "add", component]))?;
+        }
+    }
+    if !node_is_there()
+        && let Err(problem) = install_node(project)
+    {
+        return Ok(Outcome::LeftOut(problem));
+    }
+    match install_validator(project) {
+        Ok(()) => Ok(Outcome::Passed),
+        Err(problem) => Ok(Outcome::LeftOut(format!("the npm packages of {VALIDATOR}: {problem}"))),
+    }
+}
+
+/// What to say of the tests that run the validator: without it they pass without looking.
+pub(crate) fn gltf_validator(project: &Project) -> Result<Outcome, String> {
+    if node_is_there() && validator_is_there(project) {
+        return Ok(Outcome::Passed);
+    }
+    Ok(Outcome::LeftOut("GLB files were not checked by the Khronos validator, which needs Node".into()))
+}
+
+fn node_is_there() -> bool {
+    exists("node") && exists("npm")
+}
+
+fn validator_is_there(project: &Project) -> bool {
+    project.root.join(VALIDATOR).join("node_modules/gltf-validator").is_dir()
+}
+
+fn install_node(project: &Project) -> Result<(), String> {
+    if !(exists("apt-get") && is_root(project)) {
+        return Err(format!("Node is missing; on Debian this installs it: sudo {INSTALL_NODE}"));
+    }
+    run(&mut program(project, "apt-get", &["update", "--quiet"]))?;
+    let words: Vec<&str> = INSTALL_NODE.split(' ').collect();
+    run(program(project, words[0], &words[1..]).env("DEBIAN_FRONTEND", "noninteractive"))
+}
+
+fn is_root(project: &Project) -> bool {
+    let id = program(project, "id", &["-u"]).output();
+    id.is_ok_and(|output| output.stdout.trim_ascii() == b"0")
+}
+
+fn install_validator(project: &Project) -> Result<(), String> {
+    if validator_is_there(project) {
+        return Ok(());
+    }
+    run(program(project, "npm", &["ci", "--no-audit", "--no-fund"]).current_dir(project.root.join(VALIDATOR)))
+}
+
+/// Miri runs the engine's tests where there is unsafe code for it to judge.
+pub(crate) fn miri(project: &Project) -> Result<Outcome, String> {
+    let files = text_files(&project.root)?;
+    if files.iter().all(|file| unsafe_lines(file).is_empty()) {
+        return Ok(Outcome::Noted("there is no unsafe code, so nothing for Miri to judge".into()));
+    }
+    let toolchain =
+        ["toolchain", "install", "nightly", "--profile", "minimal", "--component", "miri,rust-src"];
+    run(&mut program(project, "rustup", &toolchain))?;
+    // Through rustup: the Cargo that runs this program is of the stable toolchain.
+    run(&mut program(
+        project,
+        "rustup",
+        &["run", "nightly", "cargo", "miri", "test", "-p", "tautline", "--lib"],
+    ))?;
+    Ok(Outcome::Passed)
+}
