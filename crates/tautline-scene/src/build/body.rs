@@ -1,6 +1,7 @@
 //! Bodies of a document to bodies of a world.
 
 use std::collections::BTreeSet;
+use std::f32::consts::PI;
 
 use tautline::mesh::TriMesh;
 use tautline::{BodyHandle, Error, Quat, TrussBody, Vec3, World};
@@ -140,6 +141,9 @@ impl Builder {
         }
         if let Some(compliance) = rope.bending {
             builder = builder.bending(compliance);
+        }
+        if let Some(degrees) = rope.least_angle_degrees {
+            builder = builder.bend_limit(degrees.to_radians().min(PI));
         }
         for pin in &rope.pins {
             builder = builder.pin(rope_particle(*pin, &rope.path));

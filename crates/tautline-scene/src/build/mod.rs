@@ -10,8 +10,9 @@ use std::sync::Arc;
 use tautline::mesh::TriMesh;
 use tautline::{BodyHandle, World};
 
-use crate::document::{Bounds, Camera, Scene, limits};
+use crate::document::{self, Bounds, Scene, limits};
 use crate::error::{Error, Problem};
+use crate::render::Camera;
 use body::Builder;
 
 /// A scene ready to run: its world, and what is needed to draw and judge it.
@@ -92,11 +93,19 @@ impl Scene {
             name: self.name.clone(),
             world,
             parts,
-            camera: self.camera.clone(),
+            camera: self.camera.as_ref().map(camera),
             bounds: self.bounds.clone(),
             seconds: self.seconds,
             dt: self.dt,
             record_every: self.record_every,
         })
+    }
+}
+
+fn camera(document: &document::Camera) -> Camera {
+    Camera {
+        eye: document.eye.into(),
+        target: document.target.into(),
+        vertical_fov: document.fov.to_radians(),
     }
 }

@@ -9,8 +9,9 @@ pub(super) fn of(document: &Settings) -> tautline::Settings {
         Solver::Default => tautline::Settings::default(),
     };
     settings.gravity = document.gravity.into();
-    let relaxation = &mut settings.relaxation;
     replace(&mut settings.substeps, document.substeps);
+    replace(&mut settings.features_per_pair, document.features_per_pair);
+    let relaxation = &mut settings.relaxation;
     replace(&mut relaxation.sweeps, document.sweeps);
     replace(&mut relaxation.tolerance, document.tolerance);
     replace(&mut relaxation.ordering, document.ordering.map(ordering));

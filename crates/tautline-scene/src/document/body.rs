@@ -167,6 +167,9 @@ pub struct Rope {
     /// Compliance of its resistance to bending, in rad²/J, 0 being rigid; none if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bending: Option<f32>,
+    /// The sharpest angle it folds to at a particle, in degrees, 180 being straight; any if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub least_angle_degrees: Option<f32>,
     /// Colour; chosen by its place in the scene if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,
@@ -187,6 +190,7 @@ impl Default for Rope {
             friction: 0.5,
             self_collision: false,
             bending: None,
+            least_angle_degrees: None,
             color: None,
         }
     }

@@ -39,6 +39,9 @@ pub(super) const TOLERANCE: Rule =
 /// A rate, in 1/s.
 pub(super) const RATE: Rule =
     Rule { holds: |x| (0.0..=1e6).contains(&x), expected: "a number from 0 to 1000000" };
+/// An angle between two segments, in degrees.
+pub(super) const ANGLE: Rule =
+    Rule { holds: |x| (0.0..=180.0).contains(&x), expected: "a number of degrees from 0 to 180" };
 /// An opening angle, in degrees.
 pub(super) const OPENING: Rule =
     Rule { holds: |x| x > 0.0 && x < 180.0, expected: "a number of degrees between 0 and 180" };

@@ -14,6 +14,9 @@ pub struct Settings {
     /// Parts that a step is divided into.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub substeps: Option<u32>,
+    /// How many features two rigid bodies that touch are separated at in a substep, one after another.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub features_per_pair: Option<u32>,
     /// Relaxation sweeps over all sticks of a body in a substep.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sweeps: Option<u32>,
@@ -43,6 +46,7 @@ impl Default for Settings {
             solver: Solver::default(),
             gravity: [0.0, -9.81, 0.0],
             substeps: None,
+            features_per_pair: None,
             sweeps: None,
             tolerance: None,
             ordering: None,
@@ -55,11 +59,14 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// Changes to another solver with that solver's own substeps, sweeps and tolerance: those of the document
-    /// were chosen for the one before.
+    /// Changes to another solver with that solver's own substeps, features, sweeps and tolerance: those of the
+    /// document were chosen for the one before.
     pub fn use_solver(&mut self, solver: Solver) {
         if self.solver != solver {
-            *self = Self { solver, substeps: None, sweeps: None, tolerance: None, ..self.clone() };
+            let Self { gravity, ordering, square_root, damping, broad_phase, sleep, .. } = *self;
+            let kept =
+                Self { gravity, ordering, square_root, damping, broad_phase, sleep, ..Self::default() };
+            *self = Self { solver, ..kept };
         }
     }
 }

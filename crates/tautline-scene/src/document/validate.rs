@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Display;
 
 use super::check::{
-    COORDINATE, Checker, FINITE, LENGTH, MASS, NOT_NEGATIVE, OPENING, POSITIVE, RATE, STEP, THICKNESS,
+    ANGLE, COORDINATE, Checker, FINITE, LENGTH, MASS, NOT_NEGATIVE, OPENING, POSITIVE, RATE, STEP, THICKNESS,
     TOLERANCE,
 };
 use super::{
@@ -66,6 +66,9 @@ fn check_settings(c: &mut Checker, settings: &Settings) {
     c.vector("gravity", &settings.gravity, COORDINATE);
     if let Some(substeps) = settings.substeps {
         c.count("substeps", substeps, 1, 1000);
+    }
+    if let Some(features) = settings.features_per_pair {
+        c.count("features_per_pair", features, 1, 16);
     }
     if let Some(sweeps) = settings.sweeps {
         c.count("sweeps", sweeps, 1, 10_000);
@@ -200,6 +203,7 @@ fn check_rope(c: &mut Checker, rope: &Rope) {
     }
     c.number("friction", rope.friction, NOT_NEGATIVE);
     c.optional("bending", rope.bending, NOT_NEGATIVE);
+    c.optional("least_angle_degrees", rope.least_angle_degrees, ANGLE);
 }
 
 fn check_pin<Place>(c: &mut Checker, field: impl Display, pin: &Pin<Place>, count: u64) {

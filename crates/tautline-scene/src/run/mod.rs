@@ -9,9 +9,10 @@ use std::time::Instant;
 use tautline::{StepReport, World};
 
 use crate::build::BuiltScene;
-use crate::document::{Camera, limits};
+use crate::document::limits;
 use crate::error::{Error, Problem};
 use crate::recording::Recording;
+use crate::render::Camera;
 use recorder::Recorder;
 use summary::Tally;
 
