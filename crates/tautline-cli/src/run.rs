@@ -56,19 +56,11 @@ pub(crate) fn perform(
 fn export(outcome: &Outcome, path: &Path, bar: &ProgressBar) -> Result<(), Failure> {
     let Some(recording) = &outcome.recording else { return Ok(()) };
     make_folder_of(path)?;
-    let camera = outcome.camera.as_ref().map(point_of_view);
+    let camera = outcome.camera;
     let options =
         Options { picture: render::Settings { camera, ..render::Settings::default() }, ..Options::default() };
     let mut progress = |done: usize, total: usize| tell(bar, done as u64, total as u64);
     Ok(export::write(recording, path, &options, &mut progress)?)
-}
-
-fn point_of_view(camera: &Camera) -> render::Camera {
-    render::Camera {
-        eye: camera.eye.into(),
-        target: camera.target.into(),
-        vertical_fov: camera.fov.to_radians(),
-    }
 }
 
 /// Refuses a name that cannot be written before anything is run for it.
