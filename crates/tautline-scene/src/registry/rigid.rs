@@ -43,14 +43,14 @@ fn icosahedra(p: &Parameters) -> Scene {
         }));
     }
     let target = Vec3::new(0.0, 0.4 * side, 0.0);
-    let eye = target + Vec3::new(0.55, 0.45, 1.5) * side;
+    let eye = target + Vec3::new(0.7, 0.8, 1.9) * side;
     Scene { seconds: 6.0, record_every: 2, bodies, camera: Some(camera(eye, target)), ..Scene::default() }
 }
 
 pub(super) const TOWER: NamedScene = NamedScene {
     name: "tower",
     description: "Cubes of 1 m stand on top of each other.",
-    parameters: &[Parameter::count("n", "how many cubes", 5, (1, 100))],
+    parameters: &[Parameter::count("n", "how many cubes", 10, (1, 100))],
     document: tower,
 };
 
