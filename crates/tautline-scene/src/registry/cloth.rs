@@ -62,7 +62,7 @@ fn hung_cloth(p: &Parameters) -> Scene {
         ..square(p.count("n"))
     };
     let bodies = vec![Body::HalfSpace(HalfSpace::default()), Body::Cloth(cloth)];
-    let settings = Settings { damping: Some(0.5), ..Settings::default() };
+    let settings = Settings { sweeps: Some(8), damping: Some(0.5), ..Settings::default() };
     Scene { seconds: 6.0, record_every: 2, settings, bodies, ..Scene::default() }
 }
 

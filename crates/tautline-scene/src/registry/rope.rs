@@ -27,7 +27,7 @@ fn catenary(p: &Parameters) -> Scene {
         ..Rope::default()
     };
     let bodies = vec![Body::HalfSpace(HalfSpace::default()), Body::Rope(rope)];
-    let settings = Settings { damping: Some(1.0), ..Settings::default() };
+    let settings = Settings { sweeps: Some(20), damping: Some(1.0), ..Settings::default() };
     Scene { seconds: 6.0, record_every: 2, settings, bodies, ..Scene::default() }
 }
 
@@ -46,7 +46,8 @@ fn chain(p: &Parameters) -> Scene {
         ..Rope::default()
     };
     let bodies = vec![Body::HalfSpace(HalfSpace::default()), Body::Rope(rope)];
-    Scene { seconds: 6.0, record_every: 2, bodies, ..Scene::default() }
+    let settings = Settings { sweeps: Some(20), ..Settings::default() };
+    Scene { seconds: 6.0, record_every: 2, settings, bodies, ..Scene::default() }
 }
 
 /// A rope's points, equally far along the catenary of `length` m between two ends `span` m apart at `height` m.
