@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use indicatif::ProgressBar;
-use tautline_scene::document::{Camera, Scene};
+use tautline_scene::document::Scene;
 use tautline_scene::export::{self, FORMATS, Options};
 use tautline_scene::render;
 use tautline_scene::run::{Outcome, Run as SceneRun, RunOptions, RunSummary};
