@@ -48,9 +48,9 @@ impl World {
         watch.lap(Phase::Integrate);
         self.refit_trees();
         self.find_pairs();
-        watch.lap(Phase::BroadPhase);
+        watch.lap(Phase::FindPairs);
         self.find_contacts();
-        watch.lap(Phase::NarrowPhase);
+        watch.lap(Phase::FindContacts);
         self.wake_touched(h);
         report.contacts += self.separate();
         for _ in 1..self.settings.features_per_pair {

@@ -144,7 +144,7 @@ impl World {
             self.particles.inverse_mass[particle] = 0.0;
             self.particles.displacement[particle] = Vec3::ZERO;
         }
-        Ok(self.push(Body::new(range, Shape::Deformable(built.body), built.friction, false)))
+        Ok(self.push(Body::new(range, Shape::Deformable(Box::new(built.body)), built.friction, false)))
     }
 
     fn push(&mut self, body: Body) -> BodyHandle {
