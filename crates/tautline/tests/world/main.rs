@@ -5,6 +5,7 @@ mod conservation;
 mod determinism;
 mod motion;
 mod paper;
+mod refusals;
 mod rope;
 mod snapshot;
 
