@@ -53,6 +53,8 @@ pub(crate) struct Scratch {
     /// Of touching rigid bodies, beyond their first.
     pub(crate) more_contacts: Vec<Contact>,
     pub(crate) moved: Vec<Option<Moved>>,
+    /// Where all particles were when the substep began.
+    pub(crate) start: Vec<Vec3>,
 }
 
 impl World {

@@ -3,6 +3,7 @@
 mod calls;
 mod conservation;
 mod determinism;
+mod faults;
 mod motion;
 mod paper;
 mod refusals;
