@@ -195,7 +195,7 @@ impl World {
         &self.particles.position
     }
 
-    /// Every body's velocity (m/s) is set to `velocity` and its rotation stopped.
+    /// Sets a body's velocity (m/s) and stops its rotation.
     ///
     /// # Errors
     /// [`Error::StaleHandle`]; [`Error::OutOfRange`] if a coordinate is.
@@ -218,10 +218,12 @@ impl World {
     pub fn apply_force(&mut self, handle: BodyHandle, force: Vec3) -> Result<(), Error> {
         let index = self.slots.index(handle)?;
         coordinates("force", force)?;
-        let body = &mut self.bodies[index];
-        let share = force / body.particles.len().max(1) as f32;
-        self.particles.force[body.particles.clone()].iter_mut().for_each(|sum| *sum += share);
-        body.wake();
+        let range = self.bodies[index].particles.clone();
+        let total: f32 = self.particles.mass[range.clone()].iter().sum();
+        for i in range {
+            self.particles.force[i] += force * (self.particles.mass[i] / total);
+        }
+        self.bodies[index].wake();
         Ok(())
     }
 

@@ -3,6 +3,7 @@
 mod calls;
 mod conservation;
 mod determinism;
+mod edits;
 mod faults;
 mod motion;
 mod paper;
