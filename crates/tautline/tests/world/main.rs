@@ -9,6 +9,7 @@ mod motion;
 mod paper;
 mod refusals;
 mod rope;
+mod sleep;
 mod snapshot;
 
 use std::sync::Arc;
