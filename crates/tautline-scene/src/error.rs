@@ -39,6 +39,26 @@ pub enum Error {
         /// The names there are.
         known: Vec<&'static str>,
     },
+    /// A name that no parameter of the scene has.
+    #[error("the scene {scene} has no parameter named {name:?}; it has: {}", known.join(", "))]
+    UnknownParameter {
+        /// The scene's name.
+        scene: &'static str,
+        /// The name asked for.
+        name: String,
+        /// The names there are.
+        known: Vec<&'static str>,
+    },
+    /// A value that a scene's parameter cannot have.
+    #[error("{name}: {value:?} is not {expected}")]
+    ParameterValue {
+        /// The parameter's name.
+        name: String,
+        /// The value given; empty where there was none.
+        value: String,
+        /// What would be right.
+        expected: String,
+    },
     /// A file name whose extension names no format that can be written.
     #[error("{}: no known format; the extension must be one of {supported}", path.display())]
     UnsupportedFormat {

@@ -1,16 +1,25 @@
 //! Scene documents, the registry of named scenes, mesh files in and recordings out.
 #![cfg_attr(
     not(test),
-    warn(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, clippy::print_stderr)
+    warn(
+        clippy::unwrap_used,
+        clippy::expect_used,
+        clippy::panic,
+        clippy::print_stdout,
+        clippy::print_stderr
+    )
 )]
 
+pub mod build;
 pub mod document;
 mod error;
 pub mod export;
 mod load;
 pub mod mesh_file;
 pub mod recording;
+pub mod registry;
 pub mod render;
+pub mod run;
 
 pub use error::{Error, ParseError, Problem};
 pub use load::load;

@@ -37,7 +37,7 @@ fn the_three_notations_say_the_same() {
         seconds: 2.0,
         settings: Settings {
             solver: Solver::Paper,
-            sleep: Sleep::After { speed: 0.1, seconds: 1.0 },
+            sleep: Some(Sleep::After { speed: 0.1, seconds: 1.0 }),
             ..Settings::default()
         },
         bodies: vec![

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::limits;
 use super::shape::{Shape, Surface, Thread};
-use super::value::{Color, Pin, RopeEnd, Rotation, SheetPlace};
+use super::value::{Color, Pin, RopeEnd, Rotation, SheetPlace, Weight};
 
 /// One thing in the scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -97,10 +97,16 @@ pub struct Cloth {
     /// Particles that never move: vertex indices, or places of a grid.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub pins: Vec<Pin<SheetPlace>>,
+    /// Particles with a mass of their own.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub weights: Vec<Weight<SheetPlace>>,
     /// Coefficient of friction, 0 being none.
     pub friction: f32,
     /// Whether it collides with itself.
     pub self_collision: bool,
+    /// How far from solids it is kept, in m; chosen by the distance of its particles if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub thickness: Option<f32>,
     /// Compliance of its resistance to bending, in rad²/J, 0 being rigid; none if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bending: Option<f32>,
@@ -120,8 +126,10 @@ impl Default for Cloth {
             velocity: [0.0; 3],
             mass: 1.0,
             pins: Vec::new(),
+            weights: Vec::new(),
             friction: 0.5,
             self_collision: true,
+            thickness: None,
             bending: None,
             color: None,
         }
@@ -135,8 +143,11 @@ pub struct Rope {
     /// A name of its own, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// Its rest shape, in the world's frame.
+    /// How it is laid out, in the world's frame.
     pub path: Thread,
+    /// Its length at rest, in m; that of its path if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length: Option<f32>,
     /// Radius, in m.
     pub radius: f32,
     /// Velocity, in m/s.
@@ -146,11 +157,19 @@ pub struct Rope {
     /// Particles that never move: indices, or `first` and `last`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub pins: Vec<Pin<RopeEnd>>,
+    /// Particles with a mass of their own.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub weights: Vec<Weight<RopeEnd>>,
     /// Coefficient of friction, 0 being none.
     pub friction: f32,
+    /// Whether it collides with itself.
+    pub self_collision: bool,
     /// Compliance of its resistance to bending, in rad²/J, 0 being rigid; none if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bending: Option<f32>,
+    /// The sharpest angle it folds to at a particle, in degrees, 180 being straight; any if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub least_angle_degrees: Option<f32>,
     /// Colour; chosen by its place in the scene if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,
@@ -162,12 +181,16 @@ impl Default for Rope {
         Self {
             name: None,
             path: Thread::default(),
+            length: None,
             radius: 0.01,
             velocity: [0.0; 3],
             mass: 1.0,
             pins: Vec::new(),
+            weights: Vec::new(),
             friction: 0.5,
+            self_collision: false,
             bending: None,
+            least_angle_degrees: None,
             color: None,
         }
     }

@@ -18,6 +18,9 @@ pub(super) const COORDINATE: Rule =
 /// A length, in m.
 pub(super) const LENGTH: Rule =
     Rule { holds: |x| x > 0.0 && x <= limits::REACH, expected: "a finite number above 0, up to 1000000" };
+/// A length that may be nothing, in m.
+pub(super) const THICKNESS: Rule =
+    Rule { holds: |x| (0.0..=limits::REACH).contains(&x), expected: "a finite number from 0 to 1000000" };
 /// A mass or a density.
 pub(super) const MASS: Rule =
     Rule { holds: |x| x > 0.0 && x <= limits::MASS, expected: "a finite number above 0, up to 1e12" };
@@ -30,9 +33,15 @@ pub(super) const NOT_NEGATIVE: Rule =
 /// A time step, in s.
 pub(super) const STEP: Rule =
     Rule { holds: |x| x > 0.0 && x <= 1.0, expected: "a finite number above 0, up to 1 second" };
-/// A share below the whole.
-pub(super) const SHARE: Rule =
-    Rule { holds: |x| (0.0..1.0).contains(&x), expected: "a number from 0 to below 1" };
+/// A share of a length that a stick may be off.
+pub(super) const TOLERANCE: Rule =
+    Rule { holds: |x| (0.0..=0.5).contains(&x), expected: "a number from 0 to 0.5" };
+/// A rate, in 1/s.
+pub(super) const RATE: Rule =
+    Rule { holds: |x| (0.0..=1e6).contains(&x), expected: "a number from 0 to 1000000" };
+/// An angle between two segments, in degrees.
+pub(super) const ANGLE: Rule =
+    Rule { holds: |x| (0.0..=180.0).contains(&x), expected: "a number of degrees from 0 to 180" };
 /// An opening angle, in degrees.
 pub(super) const OPENING: Rule =
     Rule { holds: |x| x > 0.0 && x < 180.0, expected: "a number of degrees between 0 and 180" };

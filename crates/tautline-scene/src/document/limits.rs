@@ -18,3 +18,5 @@ pub const REACH: f32 = 1e6;
 pub const MASS: f32 = 1e12;
 /// Problems that are listed one by one.
 pub const PROBLEMS: usize = 100;
+/// Positions of a recording, over all frames: 12 bytes each.
+pub const RECORDED_POSITIONS: u64 = 100_000_000;

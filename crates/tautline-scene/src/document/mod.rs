@@ -21,7 +21,7 @@ pub use body::{Body, Cloth, HalfSpace, Rigid, Room, Rope};
 pub use parse::{Format, parse};
 pub use settings::{BroadPhase, Ordering, Settings, Sleep, Solver, SquareRoot};
 pub use shape::{MeshFile, MeshSource, Shape, Surface, Thread};
-pub use value::{AxisAngle, Color, Pin, RopeEnd, Rotation, SheetPlace};
+pub use value::{AxisAngle, Color, Pin, RopeEnd, Rotation, SheetPlace, Weight};
 
 /// The version of the format that this crate reads and writes.
 pub const VERSION: u32 = 1;

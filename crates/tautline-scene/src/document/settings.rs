@@ -14,6 +14,9 @@ pub struct Settings {
     /// Parts that a step is divided into.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub substeps: Option<u32>,
+    /// How many features two rigid bodies that touch are separated at in a substep, one after another.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub features_per_pair: Option<u32>,
     /// Relaxation sweeps over all sticks of a body in a substep.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sweeps: Option<u32>,
@@ -21,15 +24,20 @@ pub struct Settings {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f32>,
     /// The order in which the sticks of a body that collided are relaxed.
-    pub ordering: Ordering,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ordering: Option<Ordering>,
     /// How the length of a stick is computed.
-    pub square_root: SquareRoot,
-    /// Share of its velocity that a particle loses in a second, from 0 to below 1.
-    pub damping: f32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub square_root: Option<SquareRoot>,
+    /// Rate at which free motion dies out, in 1/s, 0 being none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub damping: Option<f32>,
     /// How pairs of bodies that may touch are found.
-    pub broad_phase: BroadPhase,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub broad_phase: Option<BroadPhase>,
     /// When bodies at rest stop being moved.
-    pub sleep: Sleep,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sleep: Option<Sleep>,
 }
 
 impl Default for Settings {
@@ -38,13 +46,27 @@ impl Default for Settings {
             solver: Solver::default(),
             gravity: [0.0, -9.81, 0.0],
             substeps: None,
+            features_per_pair: None,
             sweeps: None,
             tolerance: None,
-            ordering: Ordering::default(),
-            square_root: SquareRoot::default(),
-            damping: 0.0,
-            broad_phase: BroadPhase::default(),
-            sleep: Sleep::default(),
+            ordering: None,
+            square_root: None,
+            damping: None,
+            broad_phase: None,
+            sleep: None,
+        }
+    }
+}
+
+impl Settings {
+    /// Changes to another solver with that solver's own substeps, features, sweeps and tolerance: those of the
+    /// document were chosen for the one before.
+    pub fn use_solver(&mut self, solver: Solver) {
+        if self.solver != solver {
+            let Self { gravity, ordering, square_root, damping, broad_phase, sleep, .. } = *self;
+            let kept =
+                Self { gravity, ordering, square_root, damping, broad_phase, sleep, ..Self::default() };
+            *self = Self { solver, ..kept };
         }
     }
 }
@@ -55,40 +77,37 @@ impl Default for Settings {
 pub enum Solver {
     /// The reference: bodies of sticks, hit faces, ordered relaxation.
     Paper,
-    /// Substeps and soft contacts.
+    /// The same method in substeps, which hold stacks and keep cloth short.
     #[default]
     Default,
 }
 
 /// An order of relaxation.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Ordering {
     /// By graph distance from the particle that the collision moved furthest.
-    #[default]
     ByDistance,
     /// In the order in which the body was built.
     AsBuilt,
 }
 
 /// A way to compute the length of a stick.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SquareRoot {
     /// The square root.
-    #[default]
     Exact,
     /// Its first-order expansion around the rest length.
     FirstOrder,
 }
 
 /// A way to find pairs of bodies.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum BroadPhase {
-    /// A uniform grid.
-    #[default]
-    Grid,
+    /// Boxes sorted along one axis, and swept.
+    SortAndSweep,
     /// Every pair is tested.
     AllPairs,
 }
@@ -106,10 +125,4 @@ pub enum Sleep {
         /// How long it must have been slow, in s.
         seconds: f32,
     },
-}
-
-impl Default for Sleep {
-    fn default() -> Self {
-        Self::After { speed: 0.02, seconds: 0.5 }
-    }
 }

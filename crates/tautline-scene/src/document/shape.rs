@@ -150,7 +150,7 @@ impl Default for Surface {
     }
 }
 
-/// The rest shape of a rope, in the world's frame.
+/// How a rope is laid out, in the world's frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Thread {

@@ -1,10 +1,14 @@
 //! Judges a document: every value that is wrong, with its path.
 
 use std::collections::BTreeMap;
+use std::fmt::Display;
 
-use super::check::{COORDINATE, Checker, FINITE, LENGTH, MASS, NOT_NEGATIVE, OPENING, POSITIVE, SHARE, STEP};
+use super::check::{
+    ANGLE, COORDINATE, Checker, FINITE, LENGTH, MASS, NOT_NEGATIVE, OPENING, POSITIVE, RATE, STEP, THICKNESS,
+    TOLERANCE,
+};
 use super::{
-    AxisAngle, Body, Bounds, Camera, Cloth, HalfSpace, MeshFile, MeshSource, Pin, Rigid, Room, Rope, RopeEnd,
+    AxisAngle, Body, Bounds, Camera, Cloth, HalfSpace, MeshFile, MeshSource, Pin, Rigid, Room, Rope,
     Rotation, Scene, Settings, Shape, SheetPlace, Sleep, Surface, Thread, VERSION, limits,
 };
 use crate::error::{Error, Problem};
@@ -63,15 +67,18 @@ fn check_settings(c: &mut Checker, settings: &Settings) {
     if let Some(substeps) = settings.substeps {
         c.count("substeps", substeps, 1, 1000);
     }
-    if let Some(sweeps) = settings.sweeps {
-        c.count("sweeps", sweeps, 1, 1000);
+    if let Some(features) = settings.features_per_pair {
+        c.count("features_per_pair", features, 1, 16);
     }
-    c.optional("tolerance", settings.tolerance, SHARE);
-    c.number("damping", settings.damping, SHARE);
-    if let Sleep::After { speed, seconds } = settings.sleep {
+    if let Some(sweeps) = settings.sweeps {
+        c.count("sweeps", sweeps, 1, 10_000);
+    }
+    c.optional("tolerance", settings.tolerance, TOLERANCE);
+    c.optional("damping", settings.damping, RATE);
+    if let Some(Sleep::After { speed, seconds }) = settings.sleep {
         c.within("sleep.after", |c| {
             c.number("speed", speed, POSITIVE);
-            c.number("seconds", seconds, NOT_NEGATIVE);
+            c.number("seconds", seconds, POSITIVE);
         });
     }
 }
@@ -142,15 +149,23 @@ fn check_cloth(c: &mut Checker, cloth: &Cloth) {
         Surface::File(_) => u64::MAX,
         _ => cloth.surface.vertex_count(),
     };
-    for (k, pin) in cloth.pins.iter().enumerate() {
-        check_pin(c, k, pin, count);
+    let check_place = |c: &mut Checker, field: &str, pin: &Pin<SheetPlace>| {
+        check_pin(c, field, pin, count);
         if let Pin::Place(place) = pin {
-            c.require(is_grid, format_args!("pins[{k}]"), || {
+            c.require(is_grid, field, || {
                 format!("{} is a place of a grid, and this surface is none: use indices", place_name(place))
             });
         }
+    };
+    for (k, pin) in cloth.pins.iter().enumerate() {
+        check_place(c, &format!("pins[{k}]"), pin);
+    }
+    for (k, weight) in cloth.weights.iter().enumerate() {
+        check_place(c, &format!("weights[{k}].at"), &weight.at);
+        c.number(format_args!("weights[{k}].mass"), weight.mass, MASS);
     }
     c.number("friction", cloth.friction, NOT_NEGATIVE);
+    c.optional("thickness", cloth.thickness, THICKNESS);
     c.optional("bending", cloth.bending, NOT_NEGATIVE);
 }
 
@@ -174,19 +189,26 @@ fn check_rope(c: &mut Checker, rope: &Rope) {
             }
         }
     }
+    c.optional("length", rope.length, LENGTH);
     c.number("radius", rope.radius, LENGTH);
     c.vector("velocity", &rope.velocity, COORDINATE);
     c.number("mass", rope.mass, MASS);
+    let count = rope.path.point_count();
     for (k, pin) in rope.pins.iter().enumerate() {
-        check_pin::<RopeEnd>(c, k, pin, rope.path.point_count());
+        check_pin(c, format_args!("pins[{k}]"), pin, count);
+    }
+    for (k, weight) in rope.weights.iter().enumerate() {
+        check_pin(c, format_args!("weights[{k}].at"), &weight.at, count);
+        c.number(format_args!("weights[{k}].mass"), weight.mass, MASS);
     }
     c.number("friction", rope.friction, NOT_NEGATIVE);
     c.optional("bending", rope.bending, NOT_NEGATIVE);
+    c.optional("least_angle_degrees", rope.least_angle_degrees, ANGLE);
 }
 
-fn check_pin<Place>(c: &mut Checker, k: usize, pin: &Pin<Place>, count: u64) {
+fn check_pin<Place>(c: &mut Checker, field: impl Display, pin: &Pin<Place>, count: u64) {
     if let Pin::Index(index) = *pin {
-        c.require(u64::from(index) < count, format_args!("pins[{k}]"), || {
+        c.require(u64::from(index) < count, field, || {
             format!("{index} is the index of no particle: there are {count}")
         });
     }

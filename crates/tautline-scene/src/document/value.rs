@@ -71,6 +71,17 @@ pub enum Pin<Place> {
     Place(Place),
 }
 
+/// The mass of one particle, or of each at a place, instead of its share of the body's mass.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, DeriveDeserialize, JsonSchema)]
+#[serde(deny_unknown_fields, bound(deserialize = "Place: Deserialize<'de>"))]
+#[schemars(rename = "{Place}Weight")]
+pub struct Weight<Place> {
+    /// Which particles.
+    pub at: Pin<Place>,
+    /// Mass of each, in kg.
+    pub mass: f32,
+}
+
 /// Places of a grid of cloth, as seen from above before it is turned: X to the right, Z to the front.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, DeriveDeserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]

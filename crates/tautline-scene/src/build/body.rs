@@ -1,0 +1,260 @@
+//! Bodies of a document to bodies of a world.
+
+use std::collections::BTreeSet;
+use std::f32::consts::PI;
+
+use tautline::mesh::TriMesh;
+use tautline::{BodyHandle, Error, Quat, TrussBody, Vec3, World};
+
+use super::shape::{Solids, triangles, unread};
+use super::wall;
+use super::{Look, Part};
+use crate::document::{
+    Body, Cloth, Color, HalfSpace, Pin, Rigid, Room, Rope, RopeEnd, Rotation, SheetPlace, Surface, Thread,
+};
+
+/// The density of water, in kg/m³, where a document gives neither mass nor density.
+const DENSITY: f32 = 1000.0;
+/// Colours of bodies, in turn.
+const PALETTE: [[u8; 3]; 8] = [
+    [62, 124, 190],
+    [226, 122, 63],
+    [84, 160, 110],
+    [236, 184, 68],
+    [138, 104, 178],
+    [72, 168, 178],
+    [208, 84, 94],
+    [150, 140, 120],
+];
+/// Colour of what never moves.
+const GREY: [u8; 3] = [176, 180, 188];
+
+/// Why a body was refused, and in which of its fields, such as `.shape`.
+pub(super) struct Refusal {
+    pub(super) field: &'static str,
+    pub(super) error: Error,
+}
+
+impl From<Error> for Refusal {
+    fn from(error: Error) -> Self {
+        Self { field: "", error }
+    }
+}
+
+/// A world in the making.
+pub(super) struct Builder {
+    world: World,
+    parts: Vec<Part>,
+    solids: Solids,
+    names: BTreeSet<String>,
+    /// How many bodies have a colour from the palette.
+    colored: usize,
+}
+
+impl Builder {
+    pub(super) fn new(world: World) -> Self {
+        let (parts, solids, names) = (Vec::new(), Solids::default(), BTreeSet::new());
+        Self { world, parts, solids, names, colored: 0 }
+    }
+
+    /// Adds the document's body number `index`.
+    pub(super) fn add(&mut self, index: usize, body: &Body) -> Result<(), Refusal> {
+        let name = body.name().map_or_else(|| format!("{} {index}", body.kind()), str::to_owned);
+        match body {
+            Body::Rigid(rigid) => self.add_rigid(name, rigid),
+            Body::Cloth(cloth) => self.add_cloth(name, cloth),
+            Body::Rope(rope) => self.add_rope(name, rope),
+            Body::HalfSpace(half_space) => self.add_half_space(name, half_space),
+            Body::Room(room) => self.add_room(&name, room),
+        }
+    }
+
+    fn add_rigid(&mut self, name: String, rigid: &Rigid) -> Result<(), Refusal> {
+        let solid = self.solids.get(&rigid.shape).map_err(|error| Refusal { field: ".shape", error })?;
+        let rotation = quaternion(rigid.rotation);
+        let mass =
+            rigid.mass.unwrap_or_else(|| (f64::from(rigid.density.unwrap_or(DENSITY)) * solid.volume) as f32);
+        let body = TrussBody::new(&solid.truss)
+            .position(Vec3::from(rigid.position) + rotation * solid.origin)
+            .rotation(rotation)
+            .velocity(rigid.velocity.into())
+            .angular_velocity(rigid.angular_velocity.into())
+            .mass(mass)
+            .friction(rigid.friction);
+        let body = self.world.add(if rigid.fixed { body.fixed() } else { body })?;
+        let color = match rigid.color {
+            None if rigid.fixed => GREY,
+            given => self.color(given),
+        };
+        self.push(name, color, body, Look::Solid(solid.surface));
+        Ok(())
+    }
+
+    fn add_cloth(&mut self, name: String, cloth: &Cloth) -> Result<(), Refusal> {
+        let builder = match cloth.surface {
+            Surface::Grid { columns, rows, width, depth } => {
+                tautline::Cloth::grid(columns, rows, width, depth)
+            }
+            Surface::Mesh(ref mesh) => tautline::Cloth::from_mesh(triangles(mesh)),
+            Surface::File(_) => return Err(Refusal { field: ".surface", error: unread() }),
+        };
+        let mut builder = builder
+            .position(cloth.position.into())
+            .rotation(quaternion(cloth.rotation))
+            .velocity(cloth.velocity.into())
+            .mass(cloth.mass)
+            .friction(cloth.friction)
+            .self_collision(cloth.self_collision);
+        if let Some(thickness) = cloth.thickness {
+            builder = builder.thickness(thickness);
+        }
+        if let Some(compliance) = cloth.bending {
+            builder = builder.bending(compliance);
+        }
+        for pin in &cloth.pins {
+            builder = sheet_particles(*pin, &cloth.surface).into_iter().fold(builder, tautline::Cloth::pin);
+        }
+        let body = self.world.add(builder)?;
+        for weight in &cloth.weights {
+            self.weigh(body, sheet_particles(weight.at, &cloth.surface), weight.mass)?;
+        }
+        let color = self.color(cloth.color);
+        self.push(name, color, body, Look::Sheet);
+        Ok(())
+    }
+
+    fn add_rope(&mut self, name: String, rope: &Rope) -> Result<(), Refusal> {
+        let builder = match rope.path {
+            Thread::Line { from, to, segments } => tautline::Rope::straight(from.into(), to.into(), segments),
+            Thread::Points(ref points) => {
+                tautline::Rope::through(points.iter().copied().map(Vec3::from).collect())
+            }
+        };
+        let mut builder = builder
+            .radius(rope.radius)
+            .velocity(rope.velocity.into())
+            .mass(rope.mass)
+            .friction(rope.friction)
+            .self_collision(rope.self_collision);
+        if let Some(length) = rope.length {
+            builder = builder.length(length);
+        }
+        if let Some(compliance) = rope.bending {
+            builder = builder.bending(compliance);
+        }
+        if let Some(degrees) = rope.least_angle_degrees {
+            builder = builder.bend_limit(degrees.to_radians().min(PI));
+        }
+        for pin in &rope.pins {
+            builder = builder.pin(rope_particle(*pin, &rope.path));
+        }
+        let body = self.world.add(builder)?;
+        for weight in &rope.weights {
+            self.weigh(body, vec![rope_particle(weight.at, &rope.path)], weight.mass)?;
+        }
+        let color = self.color(rope.color);
+        self.push(name, color, body, Look::Tube { radius: rope.radius });
+        Ok(())
+    }
+
+    fn add_half_space(&mut self, name: String, half_space: &HalfSpace) -> Result<(), Refusal> {
+        let HalfSpace { normal, offset, friction, color, .. } = half_space;
+        let wall = tautline::HalfSpace::new(Vec3::from(*normal), *offset).friction(*friction);
+        let body = self.world.add(wall)?;
+        // What is drawn of it depends on where the other bodies are: see `finish`.
+        self.push(name, color.map_or(GREY, |color| color.0), body, Look::Wall(TriMesh::default()));
+        Ok(())
+    }
+
+    fn add_room(&mut self, name: &str, room: &Room) -> Result<(), Refusal> {
+        for side in wall::sides(room) {
+            let wall = tautline::HalfSpace::new(side.normal, side.offset).friction(room.friction);
+            let body = self.world.add(wall)?;
+            let color = room.color.map_or(GREY, |color| color.0);
+            self.push(format!("{name} {}", side.name), color, body, Look::Wall(side.mesh));
+        }
+        Ok(())
+    }
+
+    fn weigh(&mut self, body: BodyHandle, particles: Vec<u32>, mass: f32) -> Result<(), Error> {
+        particles.into_iter().try_for_each(|particle| self.world.set_particle_mass(body, particle, mass))
+    }
+
+    /// The colour given, or the next of the palette.
+    fn color(&mut self, given: Option<Color>) -> [u8; 3] {
+        given.map_or_else(
+            || {
+                self.colored += 1;
+                PALETTE[(self.colored - 1) % PALETTE.len()]
+            },
+            |color| color.0,
+        )
+    }
+
+    fn push(&mut self, mut name: String, color: [u8; 3], body: BodyHandle, look: Look) {
+        // A name that was made up may be one that was given.
+        while !self.names.insert(name.clone()) {
+            name.push('\'');
+        }
+        self.parts.push(Part { name, color, body, look });
+    }
+
+    /// The world and its parts, half-spaces drawn so large that no edge is near a body.
+    pub(super) fn finish(mut self) -> (World, Vec<Part>) {
+        let places = self.world.positions();
+        let (low, high) = places
+            .iter()
+            .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
+        let (center, size) =
+            if places.is_empty() { (Vec3::ZERO, 0.0) } else { ((low + high) / 2.0, low.distance(high)) };
+        for part in &mut self.parts {
+            let plane = self.world.body(part.body).ok().and_then(|body| body.plane());
+            if let (Look::Wall(mesh), Some((normal, offset))) = (&mut part.look, plane)
+                && mesh.positions.is_empty()
+            {
+                *mesh = wall::square(normal, offset, center, 10.0_f32.max(10.0 * size));
+            }
+        }
+        (self.world, self.parts)
+    }
+}
+
+/// The rotation as a unit quaternion.
+fn quaternion(rotation: Rotation) -> Quat {
+    match rotation {
+        Rotation::Quaternion(quaternion) => Quat::from_array(quaternion).normalize(),
+        Rotation::AxisAngle(turn) => {
+            Quat::from_axis_angle(Vec3::from(turn.axis).normalize(), turn.degrees.to_radians())
+        }
+    }
+}
+
+/// The particles at a place of a sheet; places are of grids only.
+fn sheet_particles(pin: Pin<SheetPlace>, surface: &Surface) -> Vec<u32> {
+    let place = match pin {
+        Pin::Index(index) => return vec![index],
+        Pin::Place(place) => place,
+    };
+    let Surface::Grid { columns, rows, .. } = *surface else { return Vec::new() };
+    let at = |column: u32, row: u32| row * columns + column;
+    let (right, front) = (columns - 1, rows - 1);
+    match place {
+        SheetPlace::BackLeft => vec![at(0, 0)],
+        SheetPlace::BackRight => vec![at(right, 0)],
+        SheetPlace::FrontLeft => vec![at(0, front)],
+        SheetPlace::FrontRight => vec![at(right, front)],
+        SheetPlace::Corners => vec![at(0, 0), at(right, 0), at(0, front), at(right, front)],
+        SheetPlace::Back => (0..columns).map(|column| at(column, 0)).collect(),
+        SheetPlace::Front => (0..columns).map(|column| at(column, front)).collect(),
+        SheetPlace::Left => (0..rows).map(|row| at(0, row)).collect(),
+        SheetPlace::Right => (0..rows).map(|row| at(right, row)).collect(),
+    }
+}
+
+fn rope_particle(pin: Pin<RopeEnd>, path: &Thread) -> u32 {
+    match pin {
+        Pin::Index(index) => index,
+        Pin::Place(RopeEnd::First) => 0,
+        Pin::Place(RopeEnd::Last) => (path.point_count() - 1) as u32,
+    }
+}

@@ -1,0 +1,57 @@
+//! Settings of a document to settings of the engine.
+
+use crate::document::{BroadPhase, Ordering, Settings, Sleep, Solver, SquareRoot};
+
+/// The solver's own settings, with those the document gives in their place.
+pub(super) fn of(document: &Settings) -> tautline::Settings {
+    let mut settings = match document.solver {
+        Solver::Paper => tautline::Settings::paper(),
+        Solver::Default => tautline::Settings::default(),
+    };
+    settings.gravity = document.gravity.into();
+    replace(&mut settings.substeps, document.substeps);
+    replace(&mut settings.features_per_pair, document.features_per_pair);
+    let relaxation = &mut settings.relaxation;
+    replace(&mut relaxation.sweeps, document.sweeps);
+    replace(&mut relaxation.tolerance, document.tolerance);
+    replace(&mut relaxation.ordering, document.ordering.map(ordering));
+    replace(&mut relaxation.square_root, document.square_root.map(square_root));
+    replace(&mut settings.damping, document.damping);
+    replace(&mut settings.broad_phase, document.broad_phase.map(broad_phase));
+    replace(&mut settings.sleep, document.sleep.map(sleep));
+    settings
+}
+
+fn replace<T>(setting: &mut T, given: Option<T>) {
+    if let Some(given) = given {
+        *setting = given;
+    }
+}
+
+fn ordering(ordering: Ordering) -> tautline::Ordering {
+    match ordering {
+        Ordering::ByDistance => tautline::Ordering::ByDistance,
+        Ordering::AsBuilt => tautline::Ordering::AsBuilt,
+    }
+}
+
+fn square_root(square_root: SquareRoot) -> tautline::SquareRoot {
+    match square_root {
+        SquareRoot::Exact => tautline::SquareRoot::Exact,
+        SquareRoot::FirstOrder => tautline::SquareRoot::FirstOrder,
+    }
+}
+
+fn broad_phase(broad_phase: BroadPhase) -> tautline::BroadPhase {
+    match broad_phase {
+        BroadPhase::SortAndSweep => tautline::BroadPhase::SortAndSweep,
+        BroadPhase::AllPairs => tautline::BroadPhase::AllPairs,
+    }
+}
+
+fn sleep(sleep: Sleep) -> Option<tautline::Sleep> {
+    match sleep {
+        Sleep::Never => None,
+        Sleep::After { speed, seconds } => Some(tautline::Sleep { speed, seconds }),
+    }
+}

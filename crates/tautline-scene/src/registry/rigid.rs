@@ -1,0 +1,98 @@
+//! Scenes of rigid bodies.
+
+use tautline::{Quat, Vec3};
+
+use super::random::Random;
+use super::{NamedScene, Parameter, Parameters};
+use crate::document::{Body, Camera, HalfSpace, Rigid, Room, Rotation, Scene, Shape};
+
+pub(super) const ICOSAHEDRA: NamedScene = NamedScene {
+    name: "icosahedra",
+    description: "Icosahedra of 36 sticks are thrown into a cubical room (paper, figure 8a).",
+    parameters: &[
+        Parameter::count("n", "how many icosahedra; the room grows with them", 50, (1, 5000)),
+        Parameter::SEED,
+    ],
+    document: icosahedra,
+};
+
+/// Distance of an icosahedron's vertices from its middle, in m.
+const RADIUS: f32 = 0.5;
+
+fn icosahedra(p: &Parameters) -> Scene {
+    let n = p.count("n") as usize;
+    let layers = (1..).find(|k: &usize| k.pow(3) >= n).unwrap_or(1);
+    // 1.4 m of the room's side for each body along it, and never less than they need beside each other.
+    let side = (1.4 * libm::cbrtf(n as f32)).max(2.1 * RADIUS * layers as f32);
+    let cell = side / layers as f32;
+    let mut random = Random::new(p.seed());
+    let room =
+        Room { min: [-side / 2.0, 0.0, -side / 2.0], max: [side / 2.0, side, side / 2.0], ..Room::default() };
+    let mut bodies = vec![Body::Room(room)];
+    for i in random.choose(n, layers.pow(3)) {
+        let at = [i % layers, i / layers.pow(2), i / layers % layers].map(|k| (k as f32 + 0.5) * cell);
+        let jitter = random.in_cube((cell / 2.0 - 1.01 * RADIUS).max(0.0));
+        bodies.push(Body::Rigid(Rigid {
+            shape: Shape::Icosahedron { radius: RADIUS },
+            position: (Vec3::from(at) + jitter - Vec3::new(side, 0.0, side) / 2.0).to_array(),
+            rotation: Rotation::Quaternion(random.rotation().to_array()),
+            velocity: random.vector(5.0).to_array(),
+            angular_velocity: random.vector(5.0).to_array(),
+            mass: Some(1.0),
+            ..Rigid::default()
+        }));
+    }
+    let target = Vec3::new(0.0, 0.4 * side, 0.0);
+    let eye = target + Vec3::new(0.7, 0.8, 1.9) * side;
+    Scene { seconds: 6.0, record_every: 2, bodies, camera: Some(camera(eye, target)), ..Scene::default() }
+}
+
+pub(super) const TOWER: NamedScene = NamedScene {
+    name: "tower",
+    description: "Cubes of 1 m stand on top of each other.",
+    parameters: &[Parameter::count("n", "how many cubes", 10, (1, 100))],
+    document: tower,
+};
+
+fn tower(p: &Parameters) -> Scene {
+    let mut bodies = vec![Body::HalfSpace(HalfSpace::default())];
+    bodies.extend((0..p.count("n")).map(|i| cube(Vec3::new(0.0, i as f32 + 0.5, 0.0), Quat::IDENTITY)));
+    Scene { seconds: 5.0, record_every: 2, bodies, ..Scene::default() }
+}
+
+pub(super) const PYRAMID: NamedScene = NamedScene {
+    name: "pyramid",
+    description: "Cubes of 1 m are stacked to a pyramid, each on two below it.",
+    parameters: &[Parameter::count("n", "how many cubes its lowest row has", 5, (1, 40))],
+    document: pyramid,
+};
+
+/// Distance of the middles of neighbours in a row of the pyramid, in m.
+const PITCH: f32 = 1.1;
+
+fn pyramid(p: &Parameters) -> Scene {
+    let n = p.count("n");
+    let mut bodies = vec![Body::HalfSpace(HalfSpace::default())];
+    for row in 0..n {
+        let count = n - row;
+        for i in 0..count {
+            let x = (i as f32 - (count - 1) as f32 / 2.0) * PITCH;
+            bodies.push(cube(Vec3::new(x, row as f32 + 0.5, 0.0), Quat::IDENTITY));
+        }
+    }
+    Scene { seconds: 5.0, record_every: 2, bodies, ..Scene::default() }
+}
+
+/// 1 m, 1 kg.
+fn cube(position: Vec3, rotation: Quat) -> Body {
+    Body::Rigid(Rigid {
+        position: position.to_array(),
+        rotation: Rotation::Quaternion(rotation.to_array()),
+        mass: Some(1.0),
+        ..Rigid::default()
+    })
+}
+
+fn camera(eye: Vec3, target: Vec3) -> Camera {
+    Camera { eye: eye.to_array(), target: target.to_array(), ..Camera::default() }
+}

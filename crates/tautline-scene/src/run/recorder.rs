@@ -1,0 +1,87 @@
+//! What a world looks like, frame by frame.
+
+use tautline::mesh::TriMesh;
+use tautline::{BodyHandle, World};
+
+use super::tube::Tube;
+use crate::build::{BuiltScene, Look, Part};
+use crate::error::Error;
+use crate::recording::{Motion, Recording, Surface, Track};
+
+/// A recording in the making.
+#[derive(Debug, Clone)]
+pub(super) struct Recorder {
+    recording: Recording,
+    /// What moves in each track.
+    sources: Vec<Source>,
+}
+
+#[derive(Debug, Clone)]
+enum Source {
+    Still,
+    Rigid(BodyHandle),
+    Sheet(BodyHandle),
+    Rope(BodyHandle, Tube),
+}
+
+impl Recorder {
+    /// A recording without frames.
+    pub(super) fn new(scene: &BuiltScene) -> Result<Self, Error> {
+        let frame_rate = 1.0 / (scene.dt * scene.record_every as f32);
+        let mut recording = Recording { name: scene.name.clone(), frame_rate, tracks: Vec::new() };
+        let mut sources = Vec::new();
+        for part in &scene.parts {
+            let (track, source) = track_of(part, &scene.world)?;
+            recording.tracks.push(track);
+            sources.push(source);
+        }
+        Ok(Self { recording, sources })
+    }
+
+    /// Adds a frame.
+    pub(super) fn record(&mut self, world: &World) -> Result<(), Error> {
+        for (track, source) in self.recording.tracks.iter_mut().zip(&mut self.sources) {
+            match (source, &mut track.motion) {
+                (Source::Rigid(body), Motion::Rigid(poses)) => poses.extend(world.body(*body)?.pose()),
+                (Source::Sheet(body), Motion::Deforming(frames)) => {
+                    frames.push(world.body(*body)?.positions().to_vec());
+                }
+                (Source::Rope(body, tube), Motion::Deforming(frames)) => {
+                    frames.push(tube.positions(world.body(*body)?.positions()));
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn finish(self) -> Recording {
+        self.recording
+    }
+}
+
+/// A part's track without frames, and what moves in it.
+fn track_of(part: &Part, world: &World) -> Result<(Track, Source), Error> {
+    let body = world.body(part.body)?;
+    let (surface, mesh, motion, source) = match &part.look {
+        Look::Wall(mesh) => (Surface::Wall, mesh.clone(), Motion::Still, Source::Still),
+        Look::Solid(mesh) => match body.pose() {
+            Some((position, rotation)) if body.is_fixed() => {
+                let positions = mesh.positions.iter().map(|&p| position + rotation * p).collect();
+                let mesh = TriMesh { positions, triangles: mesh.triangles.clone() };
+                (Surface::Solid, mesh, Motion::Still, Source::Still)
+            }
+            _ => (Surface::Solid, TriMesh::clone(mesh), Motion::Rigid(Vec::new()), Source::Rigid(part.body)),
+        },
+        Look::Sheet => {
+            let mesh = TriMesh { positions: body.positions().to_vec(), triangles: body.triangles().to_vec() };
+            (Surface::Sheet, mesh, Motion::Deforming(Vec::new()), Source::Sheet(part.body))
+        }
+        Look::Tube { radius } => {
+            let mut tube = Tube::new(*radius);
+            let mesh = tube.mesh(body.positions());
+            (Surface::Tube, mesh, Motion::Deforming(Vec::new()), Source::Rope(part.body, tube))
+        }
+    };
+    Ok((Track { name: part.name.clone(), color: part.color, surface, mesh, motion }, source))
+}
