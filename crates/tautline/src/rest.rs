@@ -86,8 +86,6 @@ pub(crate) fn put_to_sleep(
     }
     for (body, _) in bodies.iter_mut().zip(may_sleep).filter(|(_, may_sleep)| *may_sleep) {
         body.rest.asleep = true;
-        // At rest now, and not half a substep ago: once woken it falls from here.
-        body.previous_step = 0.0;
         particles.displacement[body.particles.clone()].fill(Vec3::ZERO);
     }
 }
