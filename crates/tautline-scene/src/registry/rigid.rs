@@ -4,7 +4,7 @@ use tautline::{Quat, Vec3};
 
 use super::random::Random;
 use super::{NamedScene, Parameter, Parameters};
-use crate::document::{Body, Camera, HalfSpace, Rigid, Room, Rotation, Scene, Shape};
+use crate::document::{Body, Camera, Color, HalfSpace, Rigid, Room, Rotation, Scene, Shape};
 
 pub(super) const ICOSAHEDRA: NamedScene = NamedScene {
     name: "icosahedra",
@@ -42,15 +42,15 @@ fn icosahedra(p: &Parameters) -> Scene {
             ..Rigid::default()
         }));
     }
-    let target = Vec3::new(0.0, 0.4 * side, 0.0);
-    let eye = target + Vec3::new(0.55, 0.45, 1.5) * side;
+    let target = Vec3::new(0.0, 0.45 * side, 0.0);
+    let eye = target + Vec3::new(0.75, 0.55, 2.1) * side;
     Scene { seconds: 6.0, record_every: 2, bodies, camera: Some(camera(eye, target)), ..Scene::default() }
 }
 
 pub(super) const TOWER: NamedScene = NamedScene {
     name: "tower",
     description: "Cubes of 1 m stand on top of each other.",
-    parameters: &[Parameter::count("n", "how many cubes", 5, (1, 100))],
+    parameters: &[Parameter::count("n", "how many cubes", 10, (1, 100))],
     document: tower,
 };
 
@@ -63,7 +63,7 @@ fn tower(p: &Parameters) -> Scene {
 pub(super) const PYRAMID: NamedScene = NamedScene {
     name: "pyramid",
     description: "Cubes of 1 m are stacked to a pyramid, each on two below it.",
-    parameters: &[Parameter::count("n", "how many cubes its lowest row has", 5, (1, 40))],
+    parameters: &[Parameter::count("n", "how many cubes its lowest row has", 6, (1, 40))],
     document: pyramid,
 };
 
