@@ -60,10 +60,15 @@ fn is_root(project: &Project) -> bool {
 }
 
 fn install_validator(project: &Project) -> Result<(), String> {
-    if validator_is_there(project) {
+    let folder = project.root.join(VALIDATOR);
+    let changed = |file: &str| folder.join(file).metadata().and_then(|data| data.modified()).ok();
+    // npm leaves a copy of the lock file with what it installed.
+    if validator_is_there(project)
+        && changed("node_modules/.package-lock.json") >= changed("package-lock.json")
+    {
         return Ok(());
     }
-    run(program(project, "npm", &["ci", "--no-audit", "--no-fund"]).current_dir(project.root.join(VALIDATOR)))
+    run(program(project, "npm", &["ci", "--no-audit", "--no-fund"]).current_dir(folder))
 }
 
 /// Miri runs the engine's tests where there is unsafe code for it to judge.

@@ -1,2 +1,35 @@
-//! The tautline command line.
-fn main() {}
+//! The tautline command line: arguments → scene → run → files → exit code. No physics and no scenes of its own.
+
+mod args;
+mod bench;
+mod check;
+mod demo;
+mod failure;
+mod list;
+mod output;
+mod progress;
+mod reproduce;
+mod run;
+mod scene;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Arguments, Command};
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let done = match &arguments.command {
+        None => demo::demo(),
+        Some(Command::List(list)) => list::list(list),
+        Some(Command::Run(run)) => run::run(run),
+        Some(Command::Check(check)) => check::check(check),
+        Some(Command::Bench(bench)) => bench::bench(bench),
+        Some(Command::Reproduce(reproduce)) => reproduce::reproduce(reproduce),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}

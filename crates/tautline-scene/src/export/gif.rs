@@ -10,7 +10,7 @@ use super::atomic::{io_error, write_atomically};
 use super::palette::{Palette, TRANSPARENT};
 use crate::Error;
 use crate::recording::Recording;
-use crate::render::{Image, Renderer, Settings};
+use crate::render::{Image, Renderer, Scratch, Settings};
 
 /// How long the last picture stays before the animation starts over, in hundredths of a second.
 const PAUSE: usize = 100;
@@ -49,7 +49,7 @@ pub fn write_gif(
         let mut done = 0;
         progress(done, schedule.len());
         for batch in schedule.chunks(BATCH) {
-            let pictures: Vec<Image> = batch.par_iter().map(|shot| renderer.frame(shot.frame)).collect();
+            let pictures = pictures(&renderer, batch);
             for (picture, shot) in pictures.iter().zip(batch) {
                 animation.push(picture, shot.hundredths).map_err(|e| refused(path, e))?;
                 done += 1;
@@ -61,6 +61,7 @@ pub fn write_gif(
 }
 
 /// A frame of the recording and how long it is shown, in hundredths of a second.
+#[derive(Clone, Copy)]
 struct Shot {
     frame: usize,
     hundredths: u16,
@@ -84,10 +85,14 @@ fn schedule(recording: &Recording, frame_rate: f32) -> Vec<Shot> {
 
 fn palette(renderer: &Renderer, schedule: &[Shot]) -> Palette {
     let count = schedule.len().min(PALETTE_PICTURES);
-    let spread = (0..count).map(|i| &schedule[(i * (schedule.len() - 1)) / (count - 1).max(1)]);
-    let pictures: Vec<Image> =
-        spread.collect::<Vec<_>>().par_iter().map(|shot| renderer.frame(shot.frame)).collect();
-    Palette::new(&pictures)
+    let spread = (0..count).map(|i| &schedule[i * (schedule.len() - 1) / (count - 1).max(1)]);
+    Palette::new(&pictures(renderer, &spread.copied().collect::<Vec<_>>()))
+}
+
+/// Draws on as many cores as there are.
+fn pictures(renderer: &Renderer, shots: &[Shot]) -> Vec<Image> {
+    let draw = |scratch: &mut Scratch, shot: &Shot| renderer.frame_with(shot.frame, scratch);
+    shots.par_iter().map_init(Scratch::default, draw).collect()
 }
 
 /// A GIF in the making: each picture is stored as what changed since the one before.

@@ -17,7 +17,7 @@ pub use gif::write_gif;
 pub use glb::write_glb;
 pub use png::write_png;
 
-/// The extensions that [`write`] knows.
+/// The extensions that [`write()`] knows.
 pub const FORMATS: &str = ".gif, .glb, .png";
 
 /// How a recording is written.

@@ -101,8 +101,9 @@ impl Group {
     fn new(entries: Vec<Entry>) -> Self {
         let total = entries.iter().map(|e| e.count).sum::<f32>().max(1e-9);
         let mean = [0, 1, 2].map(|i| entries.iter().map(|e| e.color[i] * e.count).sum::<f32>() / total);
+        let square = |x: f32| x * x;
         let errors = [0, 1, 2]
-            .map(|i: usize| entries.iter().map(|e| (e.color[i] - mean[i]).powi(2) * e.count).sum::<f32>());
+            .map(|i: usize| entries.iter().map(|e| square(e.color[i] - mean[i]) * e.count).sum::<f32>());
         let channel = (0..3).rev().max_by(|&a, &b| errors[a].total_cmp(&errors[b])).unwrap_or(0);
         // A single colour cannot be cut, whatever rounding says.
         let error = if entries.len() > 1 { errors[channel] } else { 0.0 };

@@ -98,7 +98,11 @@ impl View {
 
     /// A world point in the camera's axes: right, up, depth.
     pub(super) fn to_view(&self, p: Vec3) -> Vec3 {
-        let d = p - self.eye;
+        self.turn(p - self.eye)
+    }
+
+    /// A world direction in the camera's axes.
+    pub(super) fn turn(&self, d: Vec3) -> Vec3 {
         Vec3::new(d.dot(self.right), d.dot(self.up), d.dot(self.forward))
     }
 

@@ -5,11 +5,11 @@ use std::sync::LazyLock;
 use tautline::Vec3;
 
 /// Sunlight on a face turned to it, a little warm.
-const SUN: Vec3 = Vec3::new(0.98, 0.93, 0.84);
+const SUN: Vec3 = Vec3::new(0.94, 0.89, 0.80);
 /// Light from straight above, a little cool.
-const SKY: Vec3 = Vec3::new(0.46, 0.50, 0.56);
+const SKY: Vec3 = Vec3::new(0.47, 0.50, 0.55);
 /// Light from below, off the ground.
-const GROUND: Vec3 = Vec3::new(0.27, 0.25, 0.235);
+const GROUND: Vec3 = Vec3::new(0.36, 0.335, 0.31);
 /// Strength of the highlight on solids.
 const GLOSS: f32 = 0.10;
 
@@ -37,11 +37,16 @@ pub(super) fn light(spot: &Spot, towards_sun: Vec3) -> Vec3 {
     if !spot.glossy {
         return diffuse;
     }
-    // Blinn–Phong with an exponent of 32, and Schlick's Fresnel term for the sky at grazing angles.
+    // Blinn–Phong with an exponent of 32, and Schlick's Fresnel term for the sky at grazing angles. Powers are
+    // written out: those of the standard library may round differently from build to build.
     let half = (towards_sun + spot.towards_eye).normalize_or_zero();
-    let highlight = spot.normal.dot(half).max(0.0).powi(32) * facing_sun.min(1.0) * spot.sunlight;
-    let grazing = (1.0 - spot.normal.dot(spot.towards_eye).clamp(0.0, 1.0)).powi(5);
-    diffuse + SUN * (GLOSS * 4.0 * highlight) + SKY * (GLOSS * 3.0 * grazing * spot.openness)
+    let square = |x: f32| x * x;
+    let highlight = square(square(square(square(square(spot.normal.dot(half).max(0.0))))));
+    let grazing = 1.0 - spot.normal.dot(spot.towards_eye).clamp(0.0, 1.0);
+    let fresnel = square(square(grazing)) * grazing;
+    diffuse
+        + SUN * (GLOSS * 4.0 * highlight * facing_sun * spot.sunlight)
+        + SKY * (GLOSS * 3.0 * fresnel * spot.openness)
 }
 
 /// Keeps colours as they are up to 0.76 and compresses what is brighter without turning its hue (the Khronos

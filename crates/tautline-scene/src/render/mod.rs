@@ -15,12 +15,13 @@ use tautline::Vec3;
 pub use camera::Camera;
 pub(crate) use light::from_srgb as linear_color;
 pub(crate) use normals::smooth_normals;
+pub(crate) use shade::Scratch;
 
 use crate::Error;
 use crate::recording::{Recording, Surface};
 use camera::View;
 use light::from_srgb;
-use shadow::ShadowMap;
+use shadow::{ShadowMap, Sun};
 use stage::Stage;
 
 /// The greatest width and height of a picture, in pixels.
@@ -63,11 +64,8 @@ pub struct Renderer<'a> {
     settings: Settings,
     stage: Stage,
     materials: Vec<Material>,
-    /// The camera with the samples behind it, and with the pixels.
     view: View,
-    pixel_view: View,
-    towards_sun: Vec3,
-    empty_shadow_map: ShadowMap,
+    sun: Sun,
     /// Middle (m) and radius (m) of all that moves, beyond which the ground fades.
     focus: (Vec3, f32),
 }
@@ -97,7 +95,6 @@ impl<'a> Renderer<'a> {
         let (width, height) = (settings.width as usize, settings.height as usize);
         let samples = settings.supersampling as usize;
         let (low, high) = stage::bounds(recording);
-        let towards_sun = towards_sun(&camera);
         Ok(Self {
             recording,
             settings,
@@ -108,19 +105,24 @@ impl<'a> Renderer<'a> {
                 .map(|track| Material::new(track.color, track.surface))
                 .collect(),
             view: View::new(&camera, width * samples, height * samples),
-            pixel_view: View::new(&camera, width, height),
-            towards_sun,
-            empty_shadow_map: ShadowMap::new(towards_sun, low, high),
+            sun: Sun::new(towards_sun(&camera), low, high),
             focus: ((low + high) / 2.0, (high - low).length() / 2.0),
         })
     }
 
     /// The picture of a frame; after the last frame, that of the last.
     pub fn frame(&self, frame: usize) -> Image {
+        self.frame_with(frame, &mut Scratch::default())
+    }
+
+    /// [`Self::frame`] for many frames in turn; what is in the scratch before does not matter.
+    pub(crate) fn frame_with(&self, frame: usize, scratch: &mut Scratch) -> Image {
         let pose = self.stage.pose(self.recording, frame);
-        let mut shadow_map = self.empty_shadow_map.clone();
-        shadow_map.fill(self.stage.casters(&pose, &self.materials));
-        shade::picture(self, &pose, &shadow_map)
+        let mut memory = std::mem::take(&mut scratch.shadow_map);
+        let shadow_map = ShadowMap::cast(self.sun, self.stage.casters(&pose, &self.materials), &mut memory);
+        let image = shade::picture(self, &pose, &shadow_map, scratch);
+        scratch.shadow_map = memory;
+        image
     }
 }
 

@@ -2,19 +2,23 @@
 
 use tautline::Vec3;
 
-use super::camera::View;
-
 /// Neighbours looked at per pixel; sixteen pixels in a square share sixteen times as many.
 const TAPS: usize = 4;
 /// Sides of the squares over which results are averaged.
 const BLOCK: usize = 4;
+/// Darkness of a spot that is hidden all around, and the least light anywhere.
+const STRENGTH: f32 = 1.8;
+const DARKEST: f32 = 0.15;
 
-/// Depths (m; infinite for the background) and unit normals of a picture's pixels.
+/// What a picture's pixels show, in the camera's axes (right, up, depth).
 pub(super) struct Geometry<'a> {
-    pub(super) view: &'a View,
+    /// Length, in pixels, of something 1 m long at a depth of 1 m.
+    pub(super) focal: f32,
     pub(super) width: usize,
     pub(super) height: usize,
+    /// In m; infinite for the background.
     pub(super) depth: &'a [f32],
+    /// Unit, on the camera's side.
     pub(super) normals: &'a [Vec3],
 }
 
@@ -31,37 +35,58 @@ pub(super) fn openness(geometry: &Geometry, radius: f32) -> Vec<f32> {
 }
 
 fn obscured(geometry: &Geometry, radius: f32) -> Vec<f32> {
-    let &Geometry { view, width, height, depth, normals } = geometry;
     let spiral = spiral();
-    let mut open = vec![1.0; width * height];
+    let mut open = vec![1.0; geometry.depth.len()];
     for (i, open) in open.iter_mut().enumerate() {
-        let z = depth[i];
+        let z = geometry.depth[i];
         if z == f32::INFINITY {
             continue;
         }
-        let (x, y) = (i % width, i / width);
-        let reach = (radius * view.focal() / z).min(width as f32 / 4.0);
-        let point = view.ray(x as f32 + 0.5, y as f32 + 0.5) * z;
-        let mut hidden = 0.0;
-        for offset in &spiral[(y % BLOCK) * BLOCK + x % BLOCK] {
-            let (tx, ty) = (x as f32 + 0.5 + offset[0] * reach, y as f32 + 0.5 + offset[1] * reach);
-            if !(tx >= 0.0 && ty >= 0.0 && tx < width as f32 && ty < height as f32) {
-                continue;
-            }
-            let (tx, ty) = (tx as usize, ty as usize);
-            let neighbour_z = depth[ty * width + tx];
-            if neighbour_z == f32::INFINITY {
-                continue;
-            }
-            let towards = view.ray(tx as f32 + 0.5, ty as f32 + 0.5) * neighbour_z - point;
-            let distance_squared = towards.length_squared();
-            let fading = (1.0 - distance_squared / (radius * radius)).max(0.0);
-            let rise = (towards.dot(normals[i]) - 0.02 * radius).max(0.0);
-            hidden += fading * rise / (distance_squared.sqrt() + 0.02 * radius);
-        }
-        *open = (1.0 - 1.8 * hidden / TAPS as f32).max(0.15);
+        let (x, y) = (i % geometry.width, i / geometry.width);
+        // Nothing is looked for farther away than a quarter of the picture.
+        let reach = (radius * geometry.focal / z).min(geometry.width as f32 / 4.0);
+        let offsets = &spiral[(y % BLOCK) * BLOCK + x % BLOCK];
+        let point = geometry.point(x, y, z);
+        let hidden: f32 = offsets
+            .iter()
+            .filter_map(|[dx, dy]| {
+                let neighbour =
+                    geometry.neighbour(x as f32 + 0.5 + dx * reach, y as f32 + 0.5 + dy * reach)?;
+                Some(obscurance(neighbour - point, geometry.normals[i], radius))
+            })
+            .sum();
+        *open = (1.0 - STRENGTH * hidden / TAPS as f32).max(DARKEST);
     }
     open
+}
+
+/// How much a neighbour at an offset (m) hides: by the sine of its height above the tangent plane, and less the
+/// farther it is.
+fn obscurance(offset: Vec3, normal: Vec3, radius: f32) -> f32 {
+    // What is nearly in the plane does not count: depths are not exact.
+    let margin = 0.02 * radius;
+    let rise = offset.dot(normal) - margin;
+    let nearness = 1.0 - offset.length_squared() / (radius * radius);
+    if rise <= 0.0 || nearness <= 0.0 { 0.0 } else { nearness * rise / (offset.length() + margin) }
+}
+
+impl Geometry<'_> {
+    /// The point shown by a pixel of that depth.
+    fn point(&self, x: usize, y: usize, z: f32) -> Vec3 {
+        let scale = z / self.focal;
+        let (cx, cy) = (self.width as f32 / 2.0, self.height as f32 / 2.0);
+        Vec3::new((x as f32 + 0.5 - cx) * scale, (cy - y as f32 - 0.5) * scale, z)
+    }
+
+    /// The point shown at a place in the picture (in pixels), if there is one.
+    fn neighbour(&self, x: f32, y: f32) -> Option<Vec3> {
+        if x < 0.0 || y < 0.0 || x >= self.width as f32 || y >= self.height as f32 {
+            return None;
+        }
+        let (x, y) = (x as usize, y as usize);
+        let z = self.depth[y * self.width + x];
+        (z != f32::INFINITY).then(|| self.point(x, y, z))
+    }
 }
 
 /// For each pixel of the pattern its offsets on a unit disc: together a spiral in golden angles.
@@ -79,24 +104,22 @@ fn spiral() -> [[[f32; 2]; TAPS]; BLOCK * BLOCK] {
     })
 }
 
-/// The mean over four pixels in a line, leaving out those of another depth.
+/// The mean over [`BLOCK`] pixels in a line, leaving out those of another depth and those beyond the picture.
 fn average(values: &[f32], geometry: &Geometry, stride: usize, tolerance: f32) -> Vec<f32> {
-    let &Geometry { width, height, depth, .. } = geometry;
+    let depth = geometry.depth;
     let mut means = vec![1.0; values.len()];
-    let along = if stride == 1 { width } else { height };
     for (i, mean) in means.iter_mut().enumerate() {
         let z = depth[i];
         if z == f32::INFINITY {
             continue;
         }
-        let place = (i / stride) % along;
-        let first = i - place.min(1) * stride;
-        let (mut sum, mut count) = (0.0, 0.0);
-        for k in 0..BLOCK.min(along - place + place.min(1)) {
-            let j = first + k * stride;
-            let alike = if (depth[j] - z).abs() < tolerance { 1.0 } else { 0.0 };
-            sum += if alike > 0.0 { values[j] } else { 0.0 };
-            count += alike;
+        // A row's end runs on into the next row: what is there is mostly of another depth, and harmless if not.
+        let (mut sum, mut count) = (values[i], 1.0);
+        for j in [i.wrapping_sub(stride), i + stride, i + 2 * stride] {
+            if j < depth.len() && (depth[j] - z).abs() < tolerance {
+                sum += values[j];
+                count += 1.0;
+            }
         }
         *mean = sum / count;
     }

@@ -130,7 +130,7 @@ mod tests {
         fn depth_is_the_plane_through_the_corners(a in corner(), b in corner(), c in corner()) {
             for_each_span([a, b, c], SIZE, SIZE, |span| {
                 for (k, i) in span.samples.clone().enumerate() {
-                    let p = glam_f64((i % SIZE) as f32 + 0.5, (i / SIZE) as f32 + 0.5);
+                    let p = point((i % SIZE) as f32 + 0.5, (i / SIZE) as f32 + 0.5);
                     let cross = |u: [f64; 2], v: [f64; 2]| u[0] * v[1] - u[1] * v[0];
                     let from = |q: Vec3| [q.x as f64 - p[0], q.y as f64 - p[1]];
                     let [u, v, w] = [cross(from(b), from(c)), cross(from(c), from(a)), cross(from(a), from(b))];
@@ -143,7 +143,7 @@ mod tests {
         }
     }
 
-    fn glam_f64(x: f32, y: f32) -> [f64; 2] {
+    fn point(x: f32, y: f32) -> [f64; 2] {
         [x as f64, y as f64]
     }
 }

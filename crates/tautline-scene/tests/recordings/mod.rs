@@ -1,5 +1,7 @@
 //! Recordings made by hand: motion that looks plausible, without an engine.
 
+#![allow(dead_code)] // Each test file takes what it needs.
+
 use tautline::mesh::TriMesh;
 use tautline::{Quat, Vec3};
 use tautline_scene::recording::{Motion, Recording, Surface, Track};
@@ -7,8 +9,8 @@ use tautline_scene::render::palette;
 
 const FRAME_RATE: f32 = 30.0;
 
-/// Regular, of unit circumradius.
-pub fn icosahedron(radius: f32) -> TriMesh {
+/// Regular, with its corners at that distance (m) from the origin.
+pub(crate) fn icosahedron(radius: f32) -> TriMesh {
     let t = (1.0 + 5.0_f32.sqrt()) / 2.0;
     let corners = [
         [-1.0, t, 0.0],
@@ -51,7 +53,7 @@ pub fn icosahedron(radius: f32) -> TriMesh {
 }
 
 /// A box around the origin.
-pub fn cuboid(half: Vec3) -> TriMesh {
+pub(crate) fn cuboid(half: Vec3) -> TriMesh {
     let corner = |i: u32| {
         let sign = |bit: u32| if i >> bit & 1 == 1 { 1.0 } else { -1.0 };
         half * Vec3::new(sign(0), sign(1), sign(2))
@@ -103,7 +105,7 @@ fn walls(half: f32) -> Vec<Track> {
 }
 
 /// Icosahedra that fall, roll and come to rest in a room: balls to the motion, icosahedra to the eye.
-pub fn icosahedra(count: usize, frames: usize) -> Recording {
+pub(crate) fn icosahedra(count: usize, frames: usize) -> Recording {
     let (half, radius) = (2.0, 0.32);
     let start = |i: usize| {
         let (layer, cell) = (i / 16, i % 16);
@@ -165,7 +167,7 @@ fn separate(places: &mut [Vec3], radius: f32) {
 }
 
 /// A sheet of n × n quads that sinks onto a cube on a floor, waving, and a tube that swings beside it.
-pub fn sheet_and_tube(n: u32, frames: usize) -> Recording {
+pub(crate) fn sheet_and_tube(n: u32, frames: usize) -> Recording {
     let sheet = |frame: usize| {
         let t = frame as f32 / FRAME_RATE;
         let sink = (t / 2.0).min(1.0);

@@ -205,7 +205,7 @@ pub(crate) fn regular(n: u32) -> Vec<Vec2> {
 }
 
 pub(crate) fn star(points: u32, inner: f32) -> Vec<Vec2> {
-    let spoke = |i: u32| if i % 2 == 0 { 1.0 } else { inner };
+    let spoke = |i: u32| if i.is_multiple_of(2) { 1.0 } else { inner };
     (0..2 * points).map(|i| Vec2::from_angle(TAU * i as f32 / (2 * points) as f32) * spoke(i)).collect()
 }
 

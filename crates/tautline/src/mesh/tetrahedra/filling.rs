@@ -44,8 +44,8 @@ pub(super) fn close(faces: &mut BTreeSet<Face>, tet: &Tet) {
 }
 
 impl Filling {
-    pub(super) fn new(surface: &[Face]) -> Filling {
-        Filling { tets: Vec::new(), owner: BTreeMap::new(), front: surface.iter().copied().collect() }
+    pub(super) fn new<'a>(surface: impl Iterator<Item = &'a Face>) -> Filling {
+        Filling { tets: Vec::new(), owner: BTreeMap::new(), front: surface.copied().collect() }
     }
 
     pub(super) fn front(&self) -> &BTreeSet<Face> {

@@ -2,10 +2,12 @@
 //! "restricted 3D triangulation" (section 4), whose edges become the sticks of a rigid body.
 //!
 //! The vertices' Delaunay triangulation is made first, and what of it lies inside and respects the
-//! surface is kept. The rest is empty cavities, bounded by triangles; they are filled by an advancing
-//! front, then by exhaustive search in small neighbourhoods, and where that fails by an interior point
-//! (Schönhardt's polyhedron needs one; no algorithm can do without). Interior points that turn out
-//! unnecessary are removed again. All decisions are exact, so a result is always valid.
+//! surface is kept. The rest is empty cavities, bounded by triangles. An advancing front fills most of
+//! them; what it leaves is searched exhaustively together with a small neighbourhood, and where that
+//! fails, interior points are added: one that sees a whole cavity, or several half way through the solid
+//! (Schönhardt's polyhedron cannot be divided without). Points that turn out unnecessary are taken out
+//! again. All decisions are exact, so a result is always valid; that there is one is likely, not proven.
+//! Shape is not optimised: corners almost in one plane can give tetrahedra that are almost flat.
 
 mod advance;
 mod boxes;
@@ -34,14 +36,17 @@ pub struct Tetrahedra {
     pub points: Vec<Vec3>,
     /// Four indices into `points` each; the first three run counter-clockwise seen from the fourth.
     pub tetrahedra: Vec<[u32; 4]>,
-    /// How many points at the end of `points` were added inside. 0 wherever that was found possible.
+    /// How many points at the end of `points` were added inside. Few, but not proven to be
+    /// the fewest.
     pub interior_points: usize,
 }
 
 /// How often a cavity is widened by the tetrahedra around it before an interior point is accepted.
 const WIDENINGS: usize = 4;
 /// Seedings in a row that do not shrink what is empty before the mesh is refused.
-const MAX_STALLED: usize = 24;
+const MAX_STALLED: usize = 16;
+/// Seedings in all, for a small mesh.
+const MAX_SEEDINGS: usize = 40;
 /// Where on the way through the solid points are put: half way, or else elsewhere.
 const SHARES: [f64; 5] = [0.5, 0.3, 0.7, 0.1, 0.4];
 
@@ -56,15 +61,21 @@ const SHARES: [f64; 5] = [0.5, 0.3, 0.7, 0.1, 0.4];
 pub fn tetrahedralise(mesh: &TriMesh) -> Result<Tetrahedra, Error> {
     let (mut points, surface) = surface::checked(mesh)?;
     let delaunay = delaunay::delaunay(&points).ok_or(MeshDefect::Flat { count: points.len() })?;
-    let mut filling = Filling::new(&surface);
+    let mut filling = Filling::new(surface.iter());
     for tet in conforming::conforming(&points, &surface, &delaunay) {
         filling.place(tet);
     }
     for cavity in filling.cavities(&points) {
         filling.replace(&cavity, advance::advance(&points, &cavity.faces, &[]));
     }
-    fill_cavities(&mut points, &mut filling, &surface.into_iter().collect())?;
-    let first_interior = mesh.positions.len();
+    let (first_interior, surface) = (points.len(), BTreeSet::from_iter(surface));
+    if let Err(refusal) = fill_cavities(&mut points, &mut filling, &surface) {
+        // A solid that is star-shaped as a whole can always be joined to one point, however thin its rays.
+        points.truncate(first_interior);
+        filling = Filling::new(surface.iter());
+        let star = steiner::kernel_star(&mut points, &surface).ok_or(refusal)?;
+        star.into_iter().for_each(|tet| filling.place(tet));
+    }
     remove_interior_points(&points, &mut filling, first_interior);
     Ok(numbered(&points, filling.tetrahedra(), first_interior))
 }
@@ -77,6 +88,8 @@ fn fill_cavities(
     surface: &BTreeSet<Face>,
 ) -> Result<(), Error> {
     let (mut smallest_front, mut stalled) = (usize::MAX, 0);
+    let mut seedings_left = MAX_SEEDINGS + surface.len() / 64;
+    let enough_points = 2 * points.len() + 64;
     loop {
         let mut cavities = filling.cavities(points);
         if cavities.is_empty() {
@@ -92,16 +105,12 @@ fn fill_cavities(
         }
         stalled = if filling.front().len() < smallest_front { 0 } else { stalled + 1 };
         smallest_front = smallest_front.min(filling.front().len());
-        if stalled == MAX_STALLED {
+        seedings_left -= 1;
+        if stalled == MAX_STALLED || seedings_left == 0 || points.len() > enough_points {
             return Err(unfilled(points, cavity));
         }
-        reseed(
-            points,
-            filling,
-            surface,
-            (cavity, &rings[1 + stalled % WIDENINGS]),
-            SHARES[stalled % SHARES.len()],
-        );
+        let share = SHARES[stalled % SHARES.len()];
+        reseed(points, filling, surface, (cavity, &rings[1 + stalled % WIDENINGS]), share);
     }
 }
 

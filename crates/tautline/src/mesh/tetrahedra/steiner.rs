@@ -22,6 +22,9 @@ pub(super) fn star(
     filling: &Filling,
     cavity: &Cavity,
 ) -> Option<(Cavity, Vec<Tet>)> {
+    if cavity.faces.len() > 2 * MAX_STAR {
+        return None;
+    }
     let apex = points.len() as u32;
     let kernel = kernel_point(points, &cavity.faces);
     let stride = cavity.faces.len().div_ceil(MAX_SEEDS);
@@ -44,6 +47,14 @@ pub(super) fn star(
     Some((cavity, tets))
 }
 
+/// Adds a point that sees every one of the faces and joins it to them; `None` if none was found.
+pub(super) fn kernel_star(points: &mut Vec<DVec3>, faces: &BTreeSet<Face>) -> Option<Vec<Tet>> {
+    let apex = points.len() as u32;
+    points.push(kernel_point(points, faces)?.as_vec3().as_dvec3());
+    let sees_all = faces.iter().all(|&f| orient(points, f, apex) < 0.0);
+    sees_all.then(|| faces.iter().map(|&f| tet_on(f, apex)).collect())
+}
+
 /// Widens the cavity across faces that `apex` does not see until it sees all, and they are fewer than
 /// `limit`.
 fn star_shaped(
@@ -54,10 +65,17 @@ fn star_shaped(
     limit: usize,
 ) -> Option<Cavity> {
     let mut cavity = from.clone();
-    let is_hidden = |f: &Face| f.contains(&apex) || orient(points, *f, apex) >= 0.0;
-    while let Some(&hidden) = cavity.faces.iter().find(|f| is_hidden(f)) {
-        if cavity.faces.len() > 2 * limit || !filling.widen_across(&mut cavity, hidden) {
-            return None;
+    let is_hidden = |f: &&Face| f.contains(&apex) || orient(points, **f, apex) >= 0.0;
+    loop {
+        let hidden: Vec<Face> = cavity.faces.iter().filter(is_hidden).copied().collect();
+        if hidden.is_empty() {
+            break;
+        }
+        for face in hidden {
+            let widened = !cavity.faces.contains(&face) || filling.widen_across(&mut cavity, face);
+            if !widened || cavity.faces.len() > 2 * limit {
+                return None;
+            }
         }
     }
     (cavity.faces.len() < limit).then_some(cavity)

@@ -1,0 +1,110 @@
+//! What can be asked for on the command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// Rigid bodies, cloth and rope in one world.
+///
+/// Without a command, two scenes are run and written to the folder `out`.
+#[derive(Debug, Parser)]
+#[command(name = "tautline", version, max_term_width = 100)]
+pub(crate) struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub(crate) command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// List the named scenes and their parameters.
+    List(List),
+    /// Run a scene and write pictures, animations and statistics.
+    Run(Run),
+    /// Check a scene file and name every problem in it. Exit code 0: none, 1: some, 2: no such file.
+    Check(Check),
+    /// Measure the time of a step, phase by phase.
+    Bench(Bench),
+    /// Run the paper's experiments and write tables, charts and a report.
+    Reproduce(Reproduce),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct List {
+    /// Print JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Run {
+    /// A named scene (see `tautline list`), or a scene file: .json, .json5 or .toml.
+    pub(crate) scene: String,
+    /// Set a parameter of a named scene; may be repeated.
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub(crate) set: Vec<String>,
+    /// How long to run, in s; what the scene says if absent.
+    #[arg(long, value_parser = seconds)]
+    pub(crate) seconds: Option<f32>,
+    /// Which solver to use; what the scene says if absent.
+    #[arg(long)]
+    pub(crate) solver: Option<Solver>,
+    /// How many threads to use; all cores if absent. The result does not depend on it.
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=256))]
+    pub(crate) threads: Option<u16>,
+    /// Write an animation (.glb, .gif) or a picture (.png); may be repeated.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Vec<PathBuf>,
+    /// Write the statistics of the run.
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) stats: Option<PathBuf>,
+    /// Print the statistics as JSON, and no progress.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Check {
+    /// A scene file: .json, .json5 or .toml.
+    pub(crate) file: PathBuf,
+    /// Print JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Bench {
+    /// Named scenes; all of them if absent.
+    pub(crate) scenes: Vec<String>,
+    /// Print JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Reproduce {
+    /// The folder to write to; made if it is not there.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Fewer sizes and steps: seconds instead of minutes, to see that everything works.
+    #[arg(long)]
+    pub(crate) quick: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Solver {
+    /// The paper's: one substep, ordered relaxation with a tolerance of 1 %.
+    Paper,
+    /// The same method in substeps.
+    Default,
+}
+
+/// The longest run, in s: an hour of simulated time.
+const MOST_SECONDS: f32 = 3600.0;
+
+fn seconds(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(seconds) if seconds > 0.0 && seconds <= MOST_SECONDS => Ok(seconds),
+        _ => Err(format!("it must be a number above 0 and at most {MOST_SECONDS} (s)")),
+    }
+}

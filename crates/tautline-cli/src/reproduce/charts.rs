@@ -1,0 +1,196 @@
+//! Line charts, drawn once and written as SVG and as PNG.
+
+use std::error::Error;
+use std::path::Path;
+use std::sync::Once;
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::register_font;
+use tautline_scene::export::write_png;
+use tautline_scene::render::Image;
+
+use crate::failure::Failure;
+use crate::output::write_text;
+
+/// A chart: panels side by side under one title.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Chart {
+    /// File name without extension.
+    pub(super) file: &'static str,
+    /// What it shows.
+    pub(super) title: String,
+    /// From left to right.
+    pub(super) panels: Vec<Panel>,
+}
+
+/// Lines over common axes; the vertical one starts at 0.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Panel {
+    /// What is counted along the horizontal axis.
+    pub(super) x_label: &'static str,
+    /// What the lines show.
+    pub(super) y_label: &'static str,
+    /// The lines, at most as many as there are colours.
+    pub(super) lines: Vec<Line>,
+}
+
+/// One line.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Line {
+    /// Its name in the legend.
+    pub(super) name: &'static str,
+    /// (x, y), x ascending.
+    pub(super) points: Vec<(f64, f64)>,
+}
+
+/// In px of the SVG; the PNG has `PNG_SCALE` times as many, so that it is sharp on any screen.
+const SIZE: (u32, u32) = (760, 460);
+const PNG_SCALE: u32 = 2;
+
+/// Blue and orange can be told apart by everybody.
+const COLORS: [RGBColor; 2] = [RGBColor(31, 95, 191), RGBColor(217, 108, 0)];
+const INK: RGBColor = RGBColor(40, 44, 52);
+const GRID: RGBColor = RGBColor(226, 228, 232);
+
+type Drawn = Result<(), Box<dyn Error>>;
+
+/// Writes a chart into a folder, as `.svg` and `.png`.
+pub(super) fn write(chart: &Chart, folder: &Path) -> Result<(), Failure> {
+    let failed = |error: Box<dyn Error>| Failure::Usage(format!("{}: {error}", chart.file));
+    let path = folder.join(chart.file);
+    write_text(&path.with_extension("svg"), &svg(chart).map_err(failed)?)?;
+    write_png(&image(chart).map_err(failed)?, &path.with_extension("png"))?;
+    Ok(())
+}
+
+fn svg(chart: &Chart) -> Result<String, Box<dyn Error>> {
+    let mut text = String::new();
+    draw(chart, &SVGBackend::with_string(&mut text, SIZE).into_drawing_area(), 1)?;
+    Ok(text)
+}
+
+fn image(chart: &Chart) -> Result<Image, Box<dyn Error>> {
+    let (width, height) = (SIZE.0 * PNG_SCALE, SIZE.1 * PNG_SCALE);
+    let mut bytes = vec![0; (width * height * 3) as usize];
+    let area = BitMapBackend::with_buffer(&mut bytes, (width, height)).into_drawing_area();
+    draw(chart, &area, PNG_SCALE)?;
+    drop(area);
+    let pixels = bytes.chunks_exact(3).map(|rgb| [rgb[0], rgb[1], rgb[2]]).collect();
+    Ok(Image { width: width as usize, height: height as usize, pixels })
+}
+
+/// Draws a chart `scale` times as large as [`SIZE`].
+fn draw<B: DrawingBackend>(chart: &Chart, area: &DrawingArea<B, Shift>, scale: u32) -> Drawn
+where
+    B::ErrorType: 'static,
+{
+    register_font_once();
+    area.fill(&WHITE)?;
+    let area = area.titled(&chart.title, font(19, scale))?.margin(0, 4 * scale, 4 * scale, 4 * scale);
+    for (panel, area) in chart.panels.iter().zip(area.split_evenly((1, chart.panels.len()))) {
+        draw_panel(panel, &area, scale)?;
+    }
+    area.present()?;
+    Ok(())
+}
+
+fn draw_panel<B: DrawingBackend>(panel: &Panel, area: &DrawingArea<B, Shift>, scale: u32) -> Drawn
+where
+    B::ErrorType: 'static,
+{
+    let points = || panel.lines.iter().flat_map(|line| &line.points);
+    let x_first = points().map(|p| p.0).fold(f64::INFINITY, f64::min).min(0.0);
+    let x_last = points().map(|p| p.0).fold(1.0, f64::max);
+    let y_last = points().map(|p| p.1).fold(1.0, f64::max);
+    let mut axes = ChartBuilder::on(area)
+        .margin(8 * scale)
+        .x_label_area_size(38 * scale)
+        .y_label_area_size(62 * scale)
+        .build_cartesian_2d(x_first..x_last * 1.04, 0.0..y_last * 1.12)?;
+    axes.configure_mesh()
+        .bold_line_style(GRID.stroke_width(scale))
+        .light_line_style(TRANSPARENT)
+        .axis_style(INK.stroke_width(scale))
+        .label_style(font(13, scale))
+        .axis_desc_style(font(14, scale))
+        .set_all_tick_mark_size(4 * scale)
+        .x_labels(6)
+        .y_labels(6)
+        .x_label_formatter(&|x| number(*x))
+        .y_label_formatter(&|y| number(*y))
+        .x_desc(panel.x_label)
+        .y_desc(panel.y_label)
+        .draw()?;
+    for (line, color) in panel.lines.iter().zip(COLORS) {
+        let style = color.stroke_width(2 * scale);
+        let dots = line.points.iter().map(|&point| Circle::new(point, 4 * scale, color.filled()));
+        axes.draw_series(LineSeries::new(line.points.iter().copied(), style))?
+            .label(line.name)
+            .legend(move |(x, y)| PathElement::new([(x, y), (x + 16 * scale as i32, y)], style));
+        axes.draw_series(dots)?;
+    }
+    if panel.lines.len() > 1 {
+        axes.configure_series_labels()
+            .position(SeriesLabelPosition::UpperLeft)
+            .legend_area_size(22 * scale)
+            .margin(10 * scale)
+            .background_style(WHITE.mix(0.85))
+            .label_font(font(14, scale))
+            .draw()?;
+    }
+    Ok(())
+}
+
+fn font(size: u32, scale: u32) -> TextStyle<'static> {
+    ("sans-serif", size * scale).into_font().color(&INK)
+}
+
+/// A picture needs a font of its own: not every machine has one, and none the same.
+fn register_font_once() {
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| {
+        // It fails only for bytes that are no font; drawing would then say that there is none.
+        let _ = register_font("sans-serif", FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT);
+    });
+}
+
+/// 12500 → "12 500": digits in groups of three.
+pub(super) fn number(value: f64) -> String {
+    let digits = format!("{value:.0}");
+    let (sign, digits) = digits.strip_prefix('-').map_or(("", digits.as_str()), |rest| ("-", rest));
+    let groups: Vec<&str> = digits.as_bytes().rchunks(3).rev().filter_map(|g| str::from_utf8(g).ok()).collect();
+    format!("{sign}{}", groups.join(" "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn chart() -> Chart {
+        let rising = Line { name: "rising", points: vec![(5.0, 10.0), (50.0, 12_500.0)] };
+        let falling = Line { name: "falling", points: vec![(5.0, 9000.0), (50.0, 20.0)] };
+        let panel = Panel { x_label: "bodies", y_label: "per step", lines: vec![rising, falling] };
+        Chart { file: "test", title: "A chart".into(), panels: vec![panel.clone(), panel] }
+    }
+
+    #[test]
+    fn both_formats_show_title_axes_and_lines() {
+        let svg = svg(&chart()).unwrap();
+        for text in ["A chart", "bodies", "per step", "rising", "falling", "10 000"] {
+            assert!(svg.contains(text), "{text} is not in the SVG");
+        }
+        let image = image(&chart()).unwrap();
+        assert_eq!(image.pixels.len(), image.width * image.height);
+        for color in COLORS {
+            let drawn = image.pixels.iter().filter(|&&pixel| pixel == [color.0, color.1, color.2]).count();
+            assert!(drawn > 1000, "{color:?} is drawn on {drawn} pixels");
+        }
+    }
+
+    #[test]
+    fn numbers_are_grouped() {
+        let texts = [0.0, 999.0, 1000.0, -12_500.0, 1e6].map(number);
+        assert_eq!(texts, ["0", "999", "1 000", "-12 500", "1 000 000"]);
+    }
+}

@@ -1,0 +1,113 @@
+//! `tautline run`: a scene to pictures, animations and statistics.
+
+use std::path::{Path, PathBuf};
+
+use indicatif::ProgressBar;
+use tautline_scene::document::{Camera, Scene};
+use tautline_scene::export::{self, FORMATS, Options};
+use tautline_scene::render;
+use tautline_scene::run::{Outcome, Run as SceneRun, RunOptions, RunSummary};
+
+use crate::args::Run;
+use crate::failure::Failure;
+use crate::output::{json, make_folder_of, print, write_text};
+use crate::progress::{bar, begin, no_bar, tell};
+use crate::scene::{find, use_solver};
+
+pub(crate) fn run(arguments: &Run) -> Result<(), Failure> {
+    check_formats(&arguments.out)?;
+    let mut scene = find(&arguments.scene, &arguments.set)?;
+    if let Some(solver) = arguments.solver {
+        use_solver(&mut scene, solver);
+    }
+    let bar = if arguments.json { no_bar() } else { bar(&scene.name) };
+    let summary =
+        in_pool(arguments.threads, || perform(&scene, arguments.seconds, &arguments.out, &bar))??;
+    bar.finish_and_clear();
+    let statistics = json(&summary)?;
+    if let Some(path) = &arguments.stats {
+        make_folder_of(path)?;
+        write_text(path, &statistics)?;
+    }
+    if arguments.json {
+        return print(&statistics);
+    }
+    let files = arguments.out.iter().chain(&arguments.stats);
+    print(&(describe(&summary) + &files.map(|path| describe_file(path)).collect::<String>()))
+}
+
+/// Runs a scene and writes what it looked like to each of `files`.
+pub(crate) fn perform(
+    scene: &Scene,
+    seconds: Option<f32>,
+    files: &[PathBuf],
+    bar: &ProgressBar,
+) -> Result<RunSummary, Failure> {
+    let options = RunOptions { seconds, record: !files.is_empty() };
+    let run = SceneRun::new(scene.build()?, options)?;
+    let outcome = run.complete(&mut |done, total| tell(bar, done, total))?;
+    for path in files {
+        begin(bar, path.display().to_string());
+        export(&outcome, path, bar)?;
+    }
+    Ok(outcome.summary)
+}
+
+fn export(outcome: &Outcome, path: &Path, bar: &ProgressBar) -> Result<(), Failure> {
+    let Some(recording) = &outcome.recording else { return Ok(()) };
+    make_folder_of(path)?;
+    let camera = outcome.camera;
+    let options =
+        Options { picture: render::Settings { camera, ..render::Settings::default() }, ..Options::default() };
+    let mut progress = |done: usize, total: usize| tell(bar, done as u64, total as u64);
+    Ok(export::write(recording, path, &options, &mut progress)?)
+}
+
+/// Refuses a name that cannot be written before anything is run for it.
+fn check_formats(files: &[PathBuf]) -> Result<(), Failure> {
+    let is_known = |path: &&PathBuf| {
+        let name = path.to_string_lossy().to_ascii_lowercase();
+        FORMATS.split(", ").any(|extension| name.ends_with(extension))
+    };
+    match files.iter().find(|path| !is_known(path)) {
+        None => Ok(()),
+        Some(path) => {
+            Err(tautline_scene::Error::UnsupportedFormat { path: path.clone(), supported: FORMATS }.into())
+        }
+    }
+}
+
+/// Does something in a pool of so many threads, or in the one that there is.
+fn in_pool<T: Send>(threads: Option<u16>, task: impl FnOnce() -> T + Send) -> Result<T, Failure> {
+    let Some(threads) = threads else { return Ok(task()) };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build();
+    let pool = pool.map_err(|error| Failure::Usage(format!("--threads {threads}: {error}")))?;
+    Ok(pool.install(task))
+}
+
+/// A few lines on what came of a run.
+pub(crate) fn describe(summary: &RunSummary) -> String {
+    let RunSummary { scene, bodies, particles, steps, seconds, ms_per_step, .. } = summary;
+    let percent = |share: f32| f64::from(share) * 100.0;
+    let mut text = format!(
+        "{scene}: {bodies} bodies, {particles} particles; {steps} steps ({seconds:.2} s) of {ms_per_step:.3} ms\n"
+    );
+    text += &format!(
+        "  at the end: sticks off by {:.2} % (mean {:.3} %), penetration {:.2} mm (mean {:.2} mm), {:.3} J\n",
+        percent(summary.max_stick_strain),
+        percent(summary.mean_stick_strain),
+        summary.max_penetration_mm,
+        summary.mean_penetration_mm,
+        summary.kinetic_energy,
+    );
+    if summary.escaped > 0 || summary.nonfinite > 0 {
+        text += &format!("  {} bodies escaped, {} became non-finite\n", summary.escaped, summary.nonfinite);
+    }
+    text + &format!("  state {}\n", summary.state_hash)
+}
+
+/// A line on a file that was written.
+pub(crate) fn describe_file(path: &Path) -> String {
+    let size = std::fs::metadata(path).map_or(0, |file| file.len());
+    format!("  wrote {} ({} kB)\n", path.display(), size.div_ceil(1000))
+}
