@@ -50,13 +50,12 @@ impl World {
         self.sum(|i, h| self.particles.displacement[i].as_dvec3() * f64::from(self.particles.mass[i]) / h)
     }
 
-    /// Σ x × m v about the origin over all particles that can move, in kg·m²/s, with the positions in the middle
-    /// of the last substep, where d/h is the velocity.
+    /// Σ x × m v about the origin over all particles that can move, in kg·m²/s.
     pub fn angular_momentum(&self) -> DVec3 {
         self.sum(|i, h| {
-            let motion = self.particles.displacement[i].as_dvec3();
-            let middle = self.particles.position[i].as_dvec3() - motion * 0.5;
-            middle.cross(motion) * f64::from(self.particles.mass[i]) / h
+            // In the middle of the last substep, where d/h is the velocity, x was x − d/2; but d × d = 0.
+            let (position, motion) = (self.particles.position[i], self.particles.displacement[i]);
+            position.as_dvec3().cross(motion.as_dvec3()) * f64::from(self.particles.mass[i]) / h
         })
     }
 

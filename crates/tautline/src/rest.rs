@@ -27,7 +27,10 @@ pub(crate) fn wake_touched(
         let motion = patch.point(&particles.displacement) - gravity_step;
         if motion.length_squared() > reach * reach {
             bodies[sleeper].wake();
-            wake_around(bodies, &particles.position, sleeper);
+            // A blow may take it away from what it carries before that is touched; a nudge will not.
+            if motion.length_squared() > BLOW * BLOW * reach * reach {
+                wake_around(bodies, &particles.position, sleeper);
+            }
         }
     }
 }
@@ -51,6 +54,9 @@ pub(crate) fn wake_around(bodies: &mut [Body], positions: &[Vec3], index: usize)
         }
     }
 }
+
+/// How much faster than what wakes a body is what wakes all around it.
+const BLOW: f32 = 10.0;
 
 /// How near a sleeper's box is to one that it may rest on, in m.
 const NEAR: f32 = 0.1;

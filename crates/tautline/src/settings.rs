@@ -19,6 +19,9 @@ pub struct Settings {
     /// How many features a pair of touching rigid bodies is separated at in a substep, one after another,
     /// each the deepest then, 1 to 16. The paper's method is 1; a cube rests on a cube at 4.
     pub features_per_pair: u32,
+    /// The greatest speed at which bodies that have overlapped for longer than a substep are moved apart, in m/s;
+    /// `None` = at once, which Verlet's integrator turns into a velocity of depth over substep.
+    pub separation_speed: Option<f32>,
     /// How the sticks are relaxed.
     pub relaxation: Relaxation,
     /// Rate at which free motion dies out, in 1/s: v' = v/(1 + damping·h). 0 = none.
@@ -85,6 +88,7 @@ impl Settings {
             gravity: Vec3::new(0.0, -9.81, 0.0),
             substeps: 1,
             features_per_pair: 1,
+            separation_speed: None,
             relaxation: Relaxation {
                 sweeps: 10,
                 tolerance: 0.01,
@@ -126,6 +130,9 @@ impl Settings {
             0.5,
             "a share from 0 to 0.5",
         )?;
+        if let Some(speed) = self.separation_speed {
+            positive("settings.separation_speed", speed)?;
+        }
         within("settings.damping", self.damping, 0.0, 1e6, "a rate from 0 to 1e6 (1/s)")?;
         if let Some(sleep) = self.sleep {
             positive("settings.sleep.speed", sleep.speed)?;
@@ -139,7 +146,7 @@ impl Default for Settings {
     fn default() -> Self {
         let paper = Self::paper();
         let relaxation = Relaxation { sweeps: 2, tolerance: 0.0, ..paper.relaxation };
-        Self { substeps: 8, features_per_pair: 4, relaxation, ..paper }
+        Self { substeps: 8, features_per_pair: 4, separation_speed: Some(3.0), relaxation, ..paper }
     }
 }
 

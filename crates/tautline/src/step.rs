@@ -52,9 +52,9 @@ impl World {
         self.find_contacts();
         watch.lap(Phase::FindContacts);
         self.wake_touched(h);
-        report.contacts += self.separate();
+        report.contacts += self.separate(h);
         for _ in 1..self.settings.features_per_pair {
-            report.contacts += self.separate_again();
+            report.contacts += self.separate_again(h);
         }
         watch.lap(Phase::Separate);
         let counts = relax_bodies(
@@ -130,18 +130,25 @@ impl World {
         }
     }
 
-    fn separate(&mut self) -> usize {
+    /// How far an old overlap may be undone in a substep, in m.
+    fn separation_limit(&self, h: f32) -> f32 {
+        self.settings.separation_speed.map_or(f32::INFINITY, |speed| speed * h)
+    }
+
+    fn separate(&mut self, h: f32) -> usize {
+        let limit = self.separation_limit(h);
         self.scratch.moved.clear();
         self.scratch.moved.resize(self.bodies.len(), None);
-        separate(&self.scratch.contacts, &self.bodies, &mut self.particles, &mut self.scratch.moved)
+        separate(&self.scratch.contacts, &self.bodies, &mut self.particles, &mut self.scratch.moved, limit)
     }
 
     /// Separates touching rigid bodies at the features that are deepest now.
-    fn separate_again(&mut self) -> usize {
+    fn separate_again(&mut self, h: f32) -> usize {
+        let limit = self.separation_limit(h);
         let Scratch { narrow_phase, more_contacts, moved, .. } = &mut self.scratch;
         let scene = Scene { bodies: &self.bodies, particles: &self.particles };
         narrow_phase.find_rigid_contacts(scene, &mut self.pairs.pairs, more_contacts);
-        separate(more_contacts, &self.bodies, &mut self.particles, moved)
+        separate(more_contacts, &self.bodies, &mut self.particles, moved, limit)
     }
 
     /// Freezes bodies with a non-finite particle where they were when the substep began.

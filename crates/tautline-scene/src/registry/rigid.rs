@@ -42,8 +42,8 @@ fn icosahedra(p: &Parameters) -> Scene {
             ..Rigid::default()
         }));
     }
-    let target = Vec3::new(0.0, 0.4 * side, 0.0);
-    let eye = target + Vec3::new(0.7, 0.8, 1.9) * side;
+    let target = Vec3::new(0.0, 0.45 * side, 0.0);
+    let eye = target + Vec3::new(0.75, 0.55, 2.1) * side;
     Scene { seconds: 6.0, record_every: 2, bodies, camera: Some(camera(eye, target)), ..Scene::default() }
 }
 
@@ -63,7 +63,7 @@ fn tower(p: &Parameters) -> Scene {
 pub(super) const PYRAMID: NamedScene = NamedScene {
     name: "pyramid",
     description: "Cubes of 1 m are stacked to a pyramid, each on two below it.",
-    parameters: &[Parameter::count("n", "how many cubes its lowest row has", 5, (1, 40))],
+    parameters: &[Parameter::count("n", "how many cubes its lowest row has", 6, (1, 40))],
     document: pyramid,
 };
 

@@ -27,7 +27,7 @@ fn catenary(p: &Parameters) -> Scene {
         ..Rope::default()
     };
     let bodies = vec![Body::HalfSpace(HalfSpace::default()), Body::Rope(rope)];
-    let settings = Settings { sweeps: Some(20), damping: Some(1.0), ..Settings::default() };
+    let settings = Settings { damping: Some(1.0), ..in_small_substeps() };
     Scene { seconds: 6.0, record_every: 2, settings, bodies, ..Scene::default() }
 }
 
@@ -42,12 +42,18 @@ fn chain(p: &Parameters) -> Scene {
     let rope = Rope {
         path: Thread::Line { from: [0.0, 2.5, 0.0], to: [2.0, 2.5, 0.0], segments: p.count("links") },
         pins: vec![Pin::Place(RopeEnd::First)],
+        radius: 0.03,
         weights: vec![Weight { at: Pin::Place(RopeEnd::Last), mass: 0.5 }],
         ..Rope::default()
     };
     let bodies = vec![Body::HalfSpace(HalfSpace::default()), Body::Rope(rope)];
-    let settings = Settings { sweeps: Some(20), ..Settings::default() };
+    let settings = Settings { damping: Some(0.1), ..in_small_substeps() };
     Scene { seconds: 6.0, record_every: 2, settings, bodies, ..Scene::default() }
+}
+
+/// A long chain of sticks is only as stiff as its steps are small.
+fn in_small_substeps() -> Settings {
+    Settings { substeps: Some(64), ..Settings::default() }
 }
 
 /// A rope's points, equally far along the catenary of `length` m between two ends `span` m apart at `height` m.

@@ -21,11 +21,15 @@ pub(crate) struct Moved {
 /// particles of its feature by wᵢλᵢ/Σwⱼλⱼ² times that (Eq 8 and 9 for any feature and any masses). m_A is the mass
 /// that the feature presents at p_A, 1/Σwⱼλⱼ², not the body's: a vertex against a face of equal bodies would
 /// otherwise move the face's three particles as far as the vertex, and create momentum.
+///
+/// Verlet reads a projection as velocity. What has overlapped for longer than this substep, by a bad start or a body
+/// put into another, is therefore moved apart by no more than `limit` (m) beyond its approach.
 pub(crate) fn separate(
     contacts: &[Contact],
     bodies: &[Body],
     particles: &mut Particles,
     moved: &mut [Option<Moved>],
+    limit: f32,
 ) -> usize {
     let mut count = 0;
     for contact in contacts {
@@ -33,6 +37,8 @@ pub(crate) fn separate(
         if depth <= 0.0 {
             continue;
         }
+        let motion = relative_motion(contact, particles);
+        let depth = depth.min(contact.normal.dot(motion).max(0.0) + limit);
         let mobility = |body: u32, patch: &Patch| match bodies[body as usize].is_awake() {
             true => patch.mobility(particles),
             false => 0.0,
@@ -45,7 +51,7 @@ pub(crate) fn separate(
         }
         count += 1;
         // Per unit of λᵢwᵢ: B's particles move along this, A's against it.
-        let shift = (contact.normal * depth + friction(contact, depth, particles)) / total;
+        let shift = (contact.normal * depth + friction(contact, depth, motion)) / total;
         if mobility_a > 0.0 {
             apply(&contact.a, -shift, particles, &mut moved[contact.body_a as usize]);
         }
@@ -56,11 +62,15 @@ pub(crate) fn separate(
     count
 }
 
+/// How far p_A has moved relative to p_B in this substep, in m.
+fn relative_motion(contact: &Contact, particles: &Particles) -> Vec3 {
+    let motion_b = contact.b.map_or(Vec3::ZERO, |b| b.point(&particles.displacement));
+    contact.a.point(&particles.displacement) - motion_b
+}
+
 /// Coulomb's friction in position form: what A slides along B over the step is taken back, at most μ times the
 /// normal correction (all of it: the contact sticks). The paper uses friction and omits the detail.
-fn friction(contact: &Contact, depth: f32, particles: &Particles) -> Vec3 {
-    let motion_b = contact.b.map_or(Vec3::ZERO, |b| b.point(&particles.displacement));
-    let motion = contact.a.point(&particles.displacement) - motion_b;
+fn friction(contact: &Contact, depth: f32, motion: Vec3) -> Vec3 {
     let slide = motion - contact.normal * contact.normal.dot(motion);
     let (length, limit) = (slide.length(), contact.friction * depth);
     if length > limit { slide * (limit / length) } else { slide }
