@@ -28,8 +28,7 @@ struct Row {
 
 pub(crate) fn bench(arguments: &Bench) -> Result<(), Failure> {
     let all = || scenes().iter().map(|scene| scene.name.to_owned()).collect();
-    let names: Vec<String> =
-        if arguments.scenes.is_empty() { all() } else { arguments.scenes.clone() };
+    let names: Vec<String> = if arguments.scenes.is_empty() { all() } else { arguments.scenes.clone() };
     let documents: Result<Vec<Scene>, Failure> = names.iter().map(|name| find(name, &[])).collect();
     let bar = if arguments.json { no_bar() } else { bar("bench") };
     let mut rows = Vec::new();
@@ -57,7 +56,15 @@ fn measure(document: &Scene) -> Result<Row, Failure> {
 
 fn text(rows: &[Row]) -> String {
     let header = [
-        "scene", "bodies", "particles", "ms/step", "integrate", "broad", "narrow", "separate", "relax",
+        "scene",
+        "bodies",
+        "particles",
+        "ms/step",
+        "integrate",
+        "broad",
+        "narrow",
+        "separate",
+        "relax",
         "steps/s",
     ];
     let cells = |row: &Row| {

@@ -16,8 +16,7 @@ pub(crate) fn check(arguments: &Check) -> Result<(), Failure> {
         Err(error) => problems(error),
     };
     if arguments.json {
-        let list: Vec<_> =
-            problems.iter().map(|p| json!({ "path": p.path, "message": p.message })).collect();
+        let list: Vec<_> = problems.iter().map(|p| json!({ "path": p.path, "message": p.message })).collect();
         print_json(&json!({ "file": file.to_string(), "ok": false, "problems": list }))?;
         return Err(Failure::Reported);
     }

@@ -15,8 +15,8 @@ const SCENES: [&str; 2] = ["icosahedra", "cloth-on-cube"];
 const FOLDER: &str = "out";
 
 const NEXT: &str = "
-Look at it: open the .gif files in a browser, and drop the .glb files on https://gltf-viewer.donmccurdy.com
-or open them in Blender, where they can be turned and played.
+Look at it: open the .gif files in a browser, and the .glb files in Blender or any glTF viewer, where they can
+be turned and played.
 Next:
   tautline list                                             the other scenes and their parameters
   tautline run icosahedra --set n=200 --out out/200.gif     the same, and more of it

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use indicatif::ProgressBar;
-use tautline_scene::document::{Camera, Scene};
+use tautline_scene::document::Scene;
 use tautline_scene::export::{self, FORMATS, Options};
 use tautline_scene::render;
 use tautline_scene::run::{Outcome, Run as SceneRun, RunOptions, RunSummary};
@@ -21,8 +21,7 @@ pub(crate) fn run(arguments: &Run) -> Result<(), Failure> {
         use_solver(&mut scene, solver);
     }
     let bar = if arguments.json { no_bar() } else { bar(&scene.name) };
-    let summary =
-        in_pool(arguments.threads, || perform(&scene, arguments.seconds, &arguments.out, &bar))??;
+    let summary = in_pool(arguments.threads, || perform(&scene, arguments.seconds, &arguments.out, &bar))??;
     bar.finish_and_clear();
     let statistics = json(&summary)?;
     if let Some(path) = &arguments.stats {

@@ -155,3 +155,12 @@ pub(crate) fn coordinates(field: &str, value: Vec3) -> Result<Vec3, Error> {
     }
     Ok(value)
 }
+
+/// Refuses points of which one has a coordinate that is NaN, infinite or beyond ±1e9.
+pub(crate) fn all_coordinates(field: &str, points: &[Vec3]) -> Result<(), Error> {
+    let sound = |point: &Vec3| point.abs().cmple(Vec3::splat(1e9)).all();
+    match points.iter().position(|point| !sound(point)) {
+        Some(index) => coordinates(&format!("{field}[{index}]"), points[index]).map(|_| ()),
+        None => Ok(()),
+    }
+}

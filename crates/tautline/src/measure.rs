@@ -93,7 +93,7 @@ impl World {
         self.rigid_depths(&mut depths);
         self.wall_depths(&mut depths);
         depths.retain(|&depth| depth > 0.0);
-        let mean = depths.iter().sum::<f32>() / depths.len().max(1) as f32;
+        let mean = depths.iter().fold(0.0, |sum, depth| sum + depth) / depths.len().max(1) as f32;
         Penetration { max: depths.iter().copied().fold(0.0, f32::max), mean, count: depths.len() }
     }
 

@@ -61,8 +61,8 @@ pub(crate) type Clock<'a> = dyn FnMut() -> f64 + 'a;
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Phase {
     Integrate,
-    BroadPhase,
-    NarrowPhase,
+    FindPairs,
+    FindContacts,
     Separate,
     Relax,
 }
@@ -86,8 +86,8 @@ impl<'a, 'b> Stopwatch<'a, 'b> {
         let seconds = &mut self.seconds;
         let sum = match phase {
             Phase::Integrate => &mut seconds.integrate,
-            Phase::BroadPhase => &mut seconds.broad_phase,
-            Phase::NarrowPhase => &mut seconds.narrow_phase,
+            Phase::FindPairs => &mut seconds.broad_phase,
+            Phase::FindContacts => &mut seconds.narrow_phase,
             Phase::Separate => &mut seconds.separate,
             Phase::Relax => &mut seconds.relax,
         };

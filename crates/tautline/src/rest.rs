@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use crate::body::Body;
-use crate::collision::Contact;
+use crate::collision::{Aabb, Contact};
 use crate::particles::Particles;
 use crate::settings::Sleep;
 
@@ -27,9 +27,33 @@ pub(crate) fn wake_touched(
         let motion = patch.point(&particles.displacement) - gravity_step;
         if motion.length_squared() > reach * reach {
             bodies[sleeper].wake();
+            wake_around(bodies, &particles.position, sleeper);
         }
     }
 }
+
+/// Wakes the sleepers whose boxes come near that of body `index`, those near these, and so on: what a body
+/// carries would otherwise hover once it is gone. Everything is near a half-space.
+pub(crate) fn wake_around(bodies: &mut [Body], positions: &[Vec3], index: usize) {
+    let bounds = |body: &Body, margin: f32| {
+        let particles = &positions[body.particles.clone()];
+        (!particles.is_empty()).then(|| Aabb::around(particles, body.reach() + margin))
+    };
+    let mut woken = vec![index];
+    while let Some(index) = woken.pop() {
+        let source = bounds(&bodies[index], NEAR);
+        for (other, body) in bodies.iter_mut().enumerate().filter(|(_, body)| body.rest.asleep) {
+            let near = |bounds: Aabb| source.is_none_or(|source| source.overlaps(&bounds));
+            if bounds(body, 0.0).is_some_and(near) {
+                body.wake();
+                woken.push(other);
+            }
+        }
+    }
+}
+
+/// How near a sleeper's box is to one that it may rest on, in m.
+const NEAR: f32 = 0.1;
 
 /// Puts bodies to sleep that have drifted slower than `sleep.speed` for `sleep.seconds`, unless they touch one
 /// that has not. Drift rather than speed decides: a body that trembles on the spot is at rest.

@@ -112,6 +112,7 @@ impl Settings {
             )?;
         }
         count("settings.substeps", self.substeps, 1000, "a whole number from 1 to 1000")?;
+        count("settings.features_per_pair", self.features_per_pair, 16, "a whole number from 1 to 16")?;
         count(
             "settings.relaxation.sweeps",
             self.relaxation.sweeps,

@@ -5,7 +5,7 @@ use glam::Vec3;
 use crate::body::{Body, Shape};
 use crate::collision::{Aabb, Candidate, Scene, find_pairs};
 use crate::error::{Error, within};
-use crate::particles::{Particles, VerletStep};
+use crate::particles::VerletStep;
 use crate::report::{Clock, Fault, Phase, StepReport, Stopwatch};
 use crate::rest::{put_to_sleep, wake_touched};
 use crate::solver::paper::{relax_bodies, separate};
@@ -44,13 +44,13 @@ impl World {
     }
 
     fn substep(&mut self, h: f32, report: &mut StepReport, watch: &mut Stopwatch<'_, '_>) {
-        self.integrate(h);
+        self.integrate(h, report);
         watch.lap(Phase::Integrate);
         self.refit_trees();
         self.find_pairs();
-        watch.lap(Phase::BroadPhase);
+        watch.lap(Phase::FindPairs);
         self.find_contacts();
-        watch.lap(Phase::NarrowPhase);
+        watch.lap(Phase::FindContacts);
         self.wake_touched(h);
         report.contacts += self.separate();
         for _ in 1..self.settings.features_per_pair {
@@ -72,9 +72,10 @@ impl World {
     }
 
     /// Verlet's step for every particle that can move (paper, 3.1).
-    fn integrate(&mut self, h: f32) {
+    fn integrate(&mut self, h: f32, report: &mut StepReport) {
         let damping = 1.0 / (1.0 + self.settings.damping * h);
         let store = &mut self.particles;
+        self.scratch.start.clone_from(&store.position);
         for body in self.bodies.iter_mut().filter(|body| body.is_awake()) {
             let ratio = h / body.displacement_time();
             let step = VerletStep { keep: ratio * damping, kick: h * (h + body.previous_step) / 2.0 };
@@ -87,6 +88,8 @@ impl World {
                 }
             }
         }
+        // Before anything else comes to touch it.
+        self.contain_faults(report);
     }
 
     /// Fits the sphere trees of deformable bodies to their particles; those of rigid bodies follow lazily.
@@ -141,13 +144,17 @@ impl World {
         separate(more_contacts, &self.bodies, &mut self.particles, moved)
     }
 
-    /// Freezes bodies with a non-finite particle where they were last known to be.
+    /// Freezes bodies with a non-finite particle where they were when the substep began.
     fn contain_faults(&mut self, report: &mut StepReport) {
         let store = &mut self.particles;
         for (index, body) in self.bodies.iter_mut().enumerate().filter(|(_, body)| body.is_awake()) {
+            let range = body.particles.clone();
             let sound = |i: usize| store.position[i].is_finite() && store.displacement[i].is_finite();
-            if let Some(particle) = body.particles.clone().position(|i| !sound(i)) {
-                freeze(body, store);
+            if let Some(particle) = range.clone().position(|i| !sound(i)) {
+                store.position[range.clone()].copy_from_slice(&self.scratch.start[range.clone()]);
+                store.displacement[range.clone()].fill(Vec3::ZERO);
+                store.inverse_mass[range].fill(0.0);
+                body.fixed = true;
                 report.faults.push(Fault { body: self.slots.handle(index), particle: particle as u32 });
             }
         }
@@ -161,15 +168,4 @@ impl World {
             None => self.bodies.iter_mut().for_each(Body::wake),
         }
     }
-}
-
-fn freeze(body: &mut Body, store: &mut Particles) {
-    for (k, i) in body.particles.clone().enumerate() {
-        if !store.position[i].is_finite() {
-            store.position[i] = body.rest.reference.get(k).copied().unwrap_or_default();
-        }
-        store.displacement[i] = Vec3::ZERO;
-        store.inverse_mass[i] = 0.0;
-    }
-    body.fixed = true;
 }

@@ -5,9 +5,10 @@ use std::sync::Arc;
 use glam::Vec3;
 
 use crate::body::{Body, BodyDescription, BuiltDeformable, HalfSpace, Shape, TrussBody};
-use crate::collision::{Aabb, Candidate, Contact, NarrowPhase, PairCache};
+use crate::collision::{Candidate, Contact, NarrowPhase, PairCache};
 use crate::error::{Error, coordinates, positive, within};
 use crate::particles::Particles;
+use crate::rest::wake_around;
 use crate::settings::Settings;
 use crate::slots::Slots;
 use crate::solver::paper::Moved;
@@ -53,6 +54,8 @@ pub(crate) struct Scratch {
     /// Of touching rigid bodies, beyond their first.
     pub(crate) more_contacts: Vec<Contact>,
     pub(crate) moved: Vec<Option<Moved>>,
+    /// Where all particles were when the substep began.
+    pub(crate) start: Vec<Vec3>,
 }
 
 impl World {
@@ -144,11 +147,12 @@ impl World {
             self.particles.inverse_mass[particle] = 0.0;
             self.particles.displacement[particle] = Vec3::ZERO;
         }
-        Ok(self.push(Body::new(range, Shape::Deformable(built.body), built.friction, false)))
+        Ok(self.push(Body::new(range, Shape::Deformable(Box::new(built.body)), built.friction, false)))
     }
 
     fn push(&mut self, body: Body) -> BodyHandle {
         self.bodies.push(body);
+        self.wake_around_fixed(self.bodies.len() - 1);
         self.slots.push()
     }
 
@@ -158,7 +162,7 @@ impl World {
     /// [`Error::StaleHandle`].
     pub fn remove(&mut self, handle: BodyHandle) -> Result<(), Error> {
         let index = self.slots.index(handle)?;
-        self.wake_neighbours(index);
+        wake_around(&mut self.bodies, &self.particles.position, index);
         let range = self.bodies[index].particles.clone();
         self.particles.remove(range.clone());
         self.bodies.remove(index);
@@ -170,16 +174,18 @@ impl World {
         Ok(())
     }
 
-    /// Wakes the bodies whose boxes come near the box of one that goes.
-    fn wake_neighbours(&mut self, index: usize) {
-        let gone = &self.bodies[index];
-        let everything = matches!(gone.shape, Shape::HalfSpace(_));
-        let bounds = Aabb::around(&self.particles.position[gone.particles.clone()], 0.1 + gone.reach());
-        for body in &mut self.bodies {
-            let near = Aabb::around(&self.particles.position[body.particles.clone()], body.reach());
-            if everything || bounds.overlaps(&near) {
-                body.wake();
-            }
+    /// Wakes a body and, if it slept, the sleepers that may rest on it.
+    fn wake_body(&mut self, index: usize) {
+        if self.bodies[index].rest.asleep {
+            wake_around(&mut self.bodies, &self.particles.position, index);
+        }
+        self.bodies[index].wake();
+    }
+
+    /// Wakes the sleepers about a fixed body that comes or goes. A body that moves wakes what it touches.
+    fn wake_around_fixed(&mut self, index: usize) {
+        if self.bodies[index].fixed {
+            wake_around(&mut self.bodies, &self.particles.position, index);
         }
     }
 
@@ -193,7 +199,7 @@ impl World {
         &self.particles.position
     }
 
-    /// Every body's velocity (m/s) is set to `velocity` and its rotation stopped.
+    /// Sets a body's velocity (m/s) and stops its rotation.
     ///
     /// # Errors
     /// [`Error::StaleHandle`]; [`Error::OutOfRange`] if a coordinate is.
@@ -205,7 +211,7 @@ impl World {
             self.particles.displacement[i] = velocity;
         }
         body.previous_step = 0.0;
-        body.wake();
+        self.wake_body(index);
         Ok(())
     }
 
@@ -216,10 +222,12 @@ impl World {
     pub fn apply_force(&mut self, handle: BodyHandle, force: Vec3) -> Result<(), Error> {
         let index = self.slots.index(handle)?;
         coordinates("force", force)?;
-        let body = &mut self.bodies[index];
-        let share = force / body.particles.len().max(1) as f32;
-        self.particles.force[body.particles.clone()].iter_mut().for_each(|sum| *sum += share);
-        body.wake();
+        let range = self.bodies[index].particles.clone();
+        let total: f32 = self.particles.mass[range.clone()].iter().sum();
+        for i in range {
+            self.particles.force[i] += force * (self.particles.mass[i] / total);
+        }
+        self.wake_body(index);
         Ok(())
     }
 
@@ -231,7 +239,7 @@ impl World {
         coordinates("force", force)?;
         let (index, i) = self.particle(handle, particle)?;
         self.particles.force[i] += force;
-        self.bodies[index].wake();
+        self.wake_body(index);
         Ok(())
     }
 
@@ -243,7 +251,7 @@ impl World {
         let (index, i) = self.particle(handle, particle)?;
         self.particles.inverse_mass[i] = 0.0;
         self.particles.displacement[i] = Vec3::ZERO;
-        self.bodies[index].wake();
+        self.wake_body(index);
         Ok(())
     }
 
@@ -255,7 +263,7 @@ impl World {
         let (index, i) = self.particle(handle, particle)?;
         if !self.bodies[index].fixed {
             self.particles.inverse_mass[i] = 1.0 / self.particles.mass[i];
-            self.bodies[index].wake();
+            self.wake_body(index);
         }
         Ok(())
     }
@@ -272,8 +280,10 @@ impl World {
     ) -> Result<(), Error> {
         coordinates("position", position)?;
         let (index, i) = self.particle(handle, particle)?;
+        self.wake_body(index);
+        self.wake_around_fixed(index);
         self.particles.position[i] = position;
-        self.bodies[index].wake();
+        self.wake_around_fixed(index);
         Ok(())
     }
 
@@ -288,7 +298,7 @@ impl World {
         if self.particles.inverse_mass[i] > 0.0 {
             self.particles.inverse_mass[i] = 1.0 / mass;
         }
-        self.bodies[index].wake();
+        self.wake_body(index);
         Ok(())
     }
 
@@ -298,7 +308,7 @@ impl World {
     /// [`Error::StaleHandle`].
     pub fn wake(&mut self, handle: BodyHandle) -> Result<(), Error> {
         let index = self.slots.index(handle)?;
-        self.bodies[index].wake();
+        self.wake_body(index);
         Ok(())
     }
 

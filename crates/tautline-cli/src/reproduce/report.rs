@@ -49,7 +49,8 @@ fn claims(results: &Results, study: &[Row]) -> String {
         let fps = number(last.fps);
         text += &format!("| {} icosahedra | about 20 frames/s at 50 | {fps} steps/s |\n", last.n);
         let ratio = last.relaxations_ordered / last.relaxations_unordered;
-        text += &format!("| relaxations, ordered/unordered, {} icosahedra | about 0.5 | {ratio:.2} |\n", last.n);
+        text +=
+            &format!("| relaxations, ordered/unordered, {} icosahedra | about 0.5 | {ratio:.2} |\n", last.n);
     }
     let ratios = sorted_ratios(study);
     if let (Some(least), Some(most)) = (ratios.first(), ratios.last()) {
@@ -59,18 +60,21 @@ fn claims(results: &Results, study: &[Row]) -> String {
         let [Some(coarse), Some(fine)] = [points.first(), points.last()] else { continue };
         let n = coarse.n;
         let fps = number(coarse.fps);
-        text += &format!("| cloth {n} × {n} on {place} | \"close to real time\" at 20 × 20 | {fps} steps/s |\n");
+        text +=
+            &format!("| cloth {n} × {n} on {place} | \"close to real time\" at 20 × 20 | {fps} steps/s |\n");
         let slower = coarse.fps / fine.fps;
-        text += &format!("| finer cloth: {n} to {} | \"a severe impact\" | {slower:.1} times slower |\n", fine.n);
+        text +=
+            &format!("| finer cloth: {n} to {} | \"a severe impact\" | {slower:.1} times slower |\n", fine.n);
     }
     text
 }
 
 fn rigid_table(results: &Results) -> String {
-    let mut text = "| icosahedra | steps/s | relaxed per step, ordered | unordered | ratio | looked at, ordered | \
+    let mut text =
+        "| icosahedra | steps/s | relaxed per step, ordered | unordered | ratio | looked at, ordered | \
                     unordered | sticks off at the end, mean (max) % | deepest penetration mm |\n\
                     |--:|--:|--:|--:|--:|--:|--:|--:|--:|\n"
-        .to_owned();
+            .to_owned();
     for p in &results.experiment1 {
         let ratio = p.relaxations_ordered / p.relaxations_unordered;
         text += &format!(
@@ -89,12 +93,12 @@ fn rigid_table(results: &Results) -> String {
 }
 
 fn cloth_table(results: &Results) -> String {
-    let mut text = "| n × n | cube: steps/s | sticks off, mean (max) % | rope: steps/s | sticks off, mean (max) % |\n\
+    let mut text =
+        "| n × n | cube: steps/s | sticks off, mean (max) % | rope: steps/s | sticks off, mean (max) % |\n\
                     |--:|--:|--:|--:|--:|\n"
-        .to_owned();
-    let cells = |p: &ClothPoint| {
-        format!("{} | {}", number(p.fps), strain(p.mean_stick_strain, p.max_stick_strain))
-    };
+            .to_owned();
+    let cells =
+        |p: &ClothPoint| format!("{} | {}", number(p.fps), strain(p.mean_stick_strain, p.max_stick_strain));
     for (cube, rope) in results.experiment2.iter().zip(&results.experiment3) {
         text += &format!("| {} | {} | {} |\n", cube.n, cells(cube), cells(rope));
     }

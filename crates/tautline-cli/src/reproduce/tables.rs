@@ -65,10 +65,8 @@ pub(super) fn charts(results: &Results) -> [Chart; 3] {
     };
     let cloths = vec![cloth("on a cube", &results.experiment2), cloth("on a rope", &results.experiment3)];
     let resolution = "particles along a side of the cloth";
-    let relaxations = vec![
-        rigid("ordered", |p| p.relaxations_ordered),
-        rigid("unordered", |p| p.relaxations_unordered),
-    ];
+    let relaxations =
+        vec![rigid("ordered", |p| p.relaxations_ordered), rigid("unordered", |p| p.relaxations_unordered)];
     let visits = vec![rigid("ordered", |p| p.visits_ordered), rigid("unordered", |p| p.visits_unordered)];
     [
         Chart {

@@ -42,8 +42,8 @@ fn icosahedra(p: &Parameters) -> Scene {
             ..Rigid::default()
         }));
     }
-    let target = Vec3::new(0.0, 0.43 * side, 0.0);
-    let eye = target + Vec3::new(0.7, 0.5, 2.05) * side;
+    let target = Vec3::new(0.0, 0.4 * side, 0.0);
+    let eye = target + Vec3::new(0.7, 0.8, 1.9) * side;
     Scene { seconds: 6.0, record_every: 2, bodies, camera: Some(camera(eye, target)), ..Scene::default() }
 }
 

@@ -4,7 +4,7 @@ use glam::{Quat, Vec3};
 
 use super::deformable::{BuiltDeformable, Deformable, Parts};
 use crate::constraint::{AngleLimit, Bending, Stick};
-use crate::error::{Error, coordinates, positive, within};
+use crate::error::{Error, all_coordinates, coordinates, positive, within};
 use crate::geometry::sphere_tree::Feature;
 use crate::mesh::{HalfEdgeMesh, TriMesh, primitives};
 
@@ -137,6 +137,7 @@ impl Cloth {
             Surface::Mesh(mesh) => mesh.clone(),
         };
         let half_edges = HalfEdgeMesh::from_mesh(&mesh)?;
+        all_coordinates("positions", &mesh.positions)?;
         if let Some(pin) = self.pins.iter().find(|&&pin| pin as usize >= mesh.positions.len()) {
             let (field, value) = ("pins".into(), f64::from(*pin));
             return Err(Error::OutOfRange { field, value, expected: "the number of one of its particles" });

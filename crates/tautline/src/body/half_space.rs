@@ -35,7 +35,9 @@ impl HalfSpace {
         coordinates("normal", self.normal)?;
         within("offset", self.offset, -1e9, 1e9, "a number from -1e9 to 1e9 (m)")?;
         within("friction", self.friction, 0.0, 1e6, "a number from 0 to 1e6")?;
-        let Some(normal) = self.normal.try_normalize() else {
+        // Scaled first, so that no length rounds to 0.
+        let scaled = self.normal / self.normal.abs().max_element();
+        let Some(normal) = scaled.try_normalize() else {
             let problem = "is zero; it must point out of the solid".into();
             return Err(Error::Invalid { field: "normal".into(), problem });
         };

@@ -82,7 +82,7 @@ pub(crate) enum Shape {
         #[serde(skip)]
         truss: Arc<Truss>,
     },
-    Deformable(Deformable),
+    Deformable(Box<Deformable>),
     HalfSpace(HalfSpace),
 }
 

@@ -51,15 +51,13 @@ fn rotate(m: &mut [[f64; 4]; 4], vectors: &mut [[f64; 4]; 4], p: usize, q: usize
     let t = sign / (theta.abs() + (theta * theta + 1.0).sqrt());
     let c = 1.0 / (t * t + 1.0).sqrt();
     let s = t * c;
-    for row in 0..4 {
-        (m[row][p], m[row][q]) = (c * m[row][p] - s * m[row][q], s * m[row][p] + c * m[row][q]);
+    let turned = |x: f64, y: f64| (c * x - s * y, s * x + c * y);
+    for row in m.iter_mut().chain(vectors) {
+        (row[p], row[q]) = turned(row[p], row[q]);
     }
-    for column in 0..4 {
-        (m[p][column], m[q][column]) =
-            (c * m[p][column] - s * m[q][column], s * m[p][column] + c * m[q][column]);
-    }
-    for row in vectors {
-        (row[p], row[q]) = (c * row[p] - s * row[q], s * row[p] + c * row[q]);
+    let (row_p, row_q) = (m[p], m[q]);
+    for (column, (x, y)) in row_p.into_iter().zip(row_q).enumerate() {
+        (m[p][column], m[q][column]) = turned(x, y);
     }
 }
 
@@ -74,7 +72,9 @@ mod tests {
         let mean = rest.iter().sum::<Vec3>() / 4.0;
         let rest = rest.map(|p| p - mean);
         let center = Vec3::new(5.0, -3.0, 2.0);
-        for (axis, angle) in [(Vec3::X, 0.3), (Vec3::Y, 3.1415926), (Vec3::new(0.6, 0.0, 0.8), 2.0)] {
+        for (axis, angle) in
+            [(Vec3::X, 0.3), (Vec3::Y, std::f32::consts::PI), (Vec3::new(0.6, 0.0, 0.8), 2.0)]
+        {
             let rotation = Quat::from_axis_angle(axis, angle);
             let moved = rest.map(|p| center + rotation * p);
             let found = best_rotation(&rest, &moved, center);

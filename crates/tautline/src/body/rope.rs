@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::deformable::{BuiltDeformable, Deformable, Parts};
 use crate::constraint::{Angle, AngleLimit, Stick, angle_gradient};
-use crate::error::{Error, coordinates, positive, within};
+use crate::error::{Error, all_coordinates, coordinates, positive, within};
 use crate::geometry::sphere_tree::Feature;
 
 /// A rope to be added to a world.
@@ -148,10 +148,9 @@ impl Rope {
             let problem = format!("{count} points; a rope needs 2 to {}", MOST_SEGMENTS + 1);
             return Err(Error::Invalid { field: "points".into(), problem });
         }
-        for (index, &point) in self.points.iter().enumerate() {
-            coordinates(&format!("points[{index}]"), point)?;
-        }
-        if let Some(index) = self.points.windows(2).position(|pair| pair[0] == pair[1]) {
+        all_coordinates("points", &self.points)?;
+        let without_length = |pair: &[Vec3]| pair[0].distance_squared(pair[1]) < f32::MIN_POSITIVE;
+        if let Some(index) = self.points.windows(2).position(without_length) {
             let problem = format!("is where points[{index}] is; a segment needs a length");
             return Err(Error::Invalid { field: format!("points[{}]", index + 1), problem });
         }
@@ -161,13 +160,13 @@ impl Rope {
         }
         coordinates("velocity", self.velocity)?;
         positive("mass", self.mass)?;
-        positive("radius", self.radius)?;
+        within("radius", self.radius, f32::MIN_POSITIVE, 1e9, "a length above 0, at most 1e9 (m)")?;
         within("friction", self.friction, 0.0, 1e6, "a number from 0 to 1e6")?;
         if let Some(angle) = self.least_angle {
             within("least_angle", angle, 0.0, std::f32::consts::PI, "an angle from 0 to π (rad)")?;
         }
         if let Some(length) = self.length {
-            positive("length", length)?;
+            within("length", length, f32::MIN_POSITIVE, 1e9, "a length above 0, at most 1e9 (m)")?;
         }
         if let Some(compliance) = self.bending_compliance {
             within("bending_compliance", compliance, 0.0, 1e12, "a number from 0 to 1e12 (rad/(N·m))")?;

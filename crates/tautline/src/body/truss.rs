@@ -6,7 +6,7 @@ use glam::{Mat3, Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
 use crate::constraint::{OrderedLists, Stick};
-use crate::error::{Error, MeshDefect, coordinates, positive, within};
+use crate::error::{Error, MeshDefect, all_coordinates, coordinates, positive, within};
 use crate::geometry::sphere_tree::{Feature, WrappedTree};
 use crate::mesh::{HalfEdgeMesh, TriMesh, tetrahedralise};
 
@@ -32,10 +32,11 @@ impl Truss {
     ///
     /// # Errors
     /// [`Error::Mesh`] with the first defect: open, non-manifold, flipped, inside out, without volume, or
-    /// impossible to divide into tetrahedra.
+    /// impossible to divide into tetrahedra. [`Error::OutOfRange`] if a coordinate is beyond ±1e9 m.
     pub fn from_mesh(mesh: &TriMesh) -> Result<Self, Error> {
         let surface = HalfEdgeMesh::from_mesh(mesh)?;
         surface.require_closed()?;
+        all_coordinates("positions", &mesh.positions)?;
         let volume = signed_volume(mesh);
         if volume <= 0.0 {
             return Err(MeshDefect::NotPositiveVolume { volume }.into());

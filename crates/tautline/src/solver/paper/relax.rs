@@ -131,7 +131,8 @@ fn sweep_sticks(
     order: impl Iterator<Item = usize>,
     settings: &Relaxation,
 ) -> Counts {
-    let (low, high) = ((1.0 - settings.tolerance).powi(2), (1.0 + settings.tolerance).powi(2));
+    let (shortest, longest) = (1.0 - settings.tolerance, 1.0 + settings.tolerance);
+    let (low, high) = (shortest * shortest, longest * longest);
     let mut counts = Counts::default();
     for index in order {
         let stick = &sticks[index];

@@ -1,0 +1,40 @@
+//! Runs the program as a user does: arguments in; exit code, text and files out.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+/// Runs it in `folder`.
+pub fn tautline(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_tautline")).args(arguments).current_dir(folder).output().unwrap()
+}
+
+/// What a call that succeeds prints; nothing may be said on standard error.
+pub fn printed(folder: &Path, arguments: &[&str]) -> String {
+    let output = tautline(folder, arguments);
+    let (stdout, stderr) = texts(&output);
+    assert!(output.status.success(), "{arguments:?}: {stderr}");
+    assert_eq!(stderr, "", "{arguments:?}");
+    stdout
+}
+
+/// The JSON that a call that succeeds prints.
+pub fn json(folder: &Path, arguments: &[&str]) -> Value {
+    serde_json::from_str(&printed(folder, arguments)).unwrap()
+}
+
+/// The errors of a call that fails with this exit code, without a word on standard output.
+pub fn errors(folder: &Path, arguments: &[&str], code: i32) -> Vec<String> {
+    let output = tautline(folder, arguments);
+    let (stdout, stderr) = texts(&output);
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {stderr}");
+    assert_eq!(stdout, "", "{arguments:?}");
+    assert!(!stderr.contains("panicked"), "{arguments:?}: {stderr}");
+    stderr.lines().map(str::to_owned).collect()
+}
+
+pub fn texts(output: &Output) -> (String, String) {
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
+    (text(&output.stdout), text(&output.stderr))
+}
