@@ -12,20 +12,10 @@ use super::{Look, Part};
 use crate::document::{
     Body, Cloth, Color, HalfSpace, Pin, Rigid, Room, Rope, RopeEnd, Rotation, SheetPlace, Surface, Thread,
 };
+use crate::render::palette;
 
 /// The density of water, in kg/m³, where a document gives neither mass nor density.
 const DENSITY: f32 = 1000.0;
-/// Colours of bodies, in turn.
-const PALETTE: [[u8; 3]; 8] = [
-    [62, 124, 190],
-    [226, 122, 63],
-    [84, 160, 110],
-    [236, 184, 68],
-    [138, 104, 178],
-    [72, 168, 178],
-    [208, 84, 94],
-    [150, 140, 120],
-];
 /// Colour of what never moves.
 const GREY: [u8; 3] = [176, 180, 188];
 
@@ -185,7 +175,7 @@ impl Builder {
         given.map_or_else(
             || {
                 self.colored += 1;
-                PALETTE[(self.colored - 1) % PALETTE.len()]
+                palette(self.colored - 1)
             },
             |color| color.0,
         )

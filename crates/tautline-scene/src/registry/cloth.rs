@@ -33,17 +33,21 @@ pub(super) const CLOTH_ON_ROPE: NamedScene = NamedScene {
     document: cloth_on_rope,
 };
 
+/// Friction enough that a swaying cloth does not creep over the rope until it falls off.
+const ROUGH: f32 = 0.8;
+
 fn cloth_on_rope(p: &Parameters) -> Scene {
     let rope = Rope {
         path: Thread::Points(hanging(2.6, 3.0, 2.5, p.count("segments"))),
-        radius: 0.02,
+        radius: 0.03,
+        friction: ROUGH,
         pins: vec![Pin::Place(RopeEnd::First), Pin::Place(RopeEnd::Last)],
         ..Rope::default()
     };
     let bodies = vec![
         Body::HalfSpace(HalfSpace::default()),
         Body::Rope(rope),
-        Body::Cloth(Cloth { position: [0.0, 2.5, 0.0], ..square(p.count("n")) }),
+        Body::Cloth(Cloth { position: [0.0, 2.5, 0.0], friction: ROUGH, ..square(p.count("n")) }),
     ];
     in_small_steps(bodies)
 }

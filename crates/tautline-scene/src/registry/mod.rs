@@ -6,6 +6,7 @@ mod parameter;
 mod random;
 mod rigid;
 mod rope;
+mod together;
 
 use crate::document::Scene;
 use crate::error::Error;
@@ -52,6 +53,7 @@ pub fn scenes() -> &'static [NamedScene] {
         cloth::CURTAIN,
         rope::CATENARY,
         rope::CHAIN,
+        together::HAMMOCK,
     ]
 }
 

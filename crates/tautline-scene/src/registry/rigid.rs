@@ -1,10 +1,10 @@
 //! Scenes of rigid bodies.
 
-use tautline::{Quat, Vec3};
+use tautline::Vec3;
 
 use super::random::Random;
 use super::{NamedScene, Parameter, Parameters};
-use crate::document::{Body, Camera, HalfSpace, Rigid, Room, Rotation, Scene, Shape};
+use crate::document::{Body, Camera, Color, HalfSpace, Rigid, Room, Rotation, Scene, Shape};
 
 pub(super) const ICOSAHEDRA: NamedScene = NamedScene {
     name: "icosahedra",
@@ -26,8 +26,8 @@ fn icosahedra(p: &Parameters) -> Scene {
     let side = (1.4 * libm::cbrtf(n as f32)).max(2.1 * RADIUS * layers as f32);
     let cell = side / layers as f32;
     let mut random = Random::new(p.seed());
-    let room =
-        Room { min: [-side / 2.0, 0.0, -side / 2.0], max: [side / 2.0, side, side / 2.0], ..Room::default() };
+    let (min, max) = ([-side / 2.0, 0.0, -side / 2.0], [side / 2.0, side, side / 2.0]);
+    let room = Room { min, max, color: Some(Color([210, 212, 218])), ..Room::default() };
     let mut bodies = vec![Body::Room(room)];
     for i in random.choose(n, layers.pow(3)) {
         let at = [i % layers, i / layers.pow(2), i / layers % layers].map(|k| (k as f32 + 0.5) * cell);
@@ -42,8 +42,8 @@ fn icosahedra(p: &Parameters) -> Scene {
             ..Rigid::default()
         }));
     }
-    let target = Vec3::new(0.0, 0.45 * side, 0.0);
-    let eye = target + Vec3::new(0.75, 0.55, 2.1) * side;
+    let target = Vec3::new(0.0, 0.4 * side, 0.0);
+    let eye = target + Vec3::new(0.7, 0.8, 1.9) * side;
     Scene { seconds: 6.0, record_every: 2, bodies, camera: Some(camera(eye, target)), ..Scene::default() }
 }
 
@@ -56,7 +56,7 @@ pub(super) const TOWER: NamedScene = NamedScene {
 
 fn tower(p: &Parameters) -> Scene {
     let mut bodies = vec![Body::HalfSpace(HalfSpace::default())];
-    bodies.extend((0..p.count("n")).map(|i| cube(Vec3::new(0.0, i as f32 + 0.5, 0.0), Quat::IDENTITY)));
+    bodies.extend((0..p.count("n")).map(|i| cube(0.0, i as f32 + 0.5)));
     Scene { seconds: 5.0, record_every: 2, bodies, ..Scene::default() }
 }
 
@@ -77,20 +77,15 @@ fn pyramid(p: &Parameters) -> Scene {
         let count = n - row;
         for i in 0..count {
             let x = (i as f32 - (count - 1) as f32 / 2.0) * PITCH;
-            bodies.push(cube(Vec3::new(x, row as f32 + 0.5, 0.0), Quat::IDENTITY));
+            bodies.push(cube(x, row as f32 + 0.5));
         }
     }
     Scene { seconds: 5.0, record_every: 2, bodies, ..Scene::default() }
 }
 
 /// 1 m, 1 kg.
-fn cube(position: Vec3, rotation: Quat) -> Body {
-    Body::Rigid(Rigid {
-        position: position.to_array(),
-        rotation: Rotation::Quaternion(rotation.to_array()),
-        mass: Some(1.0),
-        ..Rigid::default()
-    })
+fn cube(x: f32, y: f32) -> Body {
+    Body::Rigid(Rigid { position: [x, y, 0.0], mass: Some(1.0), ..Rigid::default() })
 }
 
 fn camera(eye: Vec3, target: Vec3) -> Camera {

@@ -1,0 +1,210 @@
+//! Every named scene: its document, its parameters, what becomes of it, and its hash.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+use tautline_scene::document::{Format, Scene, Solver, parse};
+use tautline_scene::registry::{NamedScene, find, scenes};
+use tautline_scene::run::{Run, RunOptions, RunSummary};
+use tautline_scene::{Error, build::Look};
+
+fn default_document(scene: &NamedScene) -> Scene {
+    scene.document(&scene.defaults())
+}
+
+fn with(name: &str, assignments: &[&str]) -> Scene {
+    let scene = find(name).unwrap();
+    let mut parameters = scene.defaults();
+    assignments.iter().for_each(|assignment| parameters.assign(assignment).unwrap());
+    scene.document(&parameters)
+}
+
+fn run(scene: &Scene, steps: u32) -> RunSummary {
+    // Half a step less, for the rounding of a product.
+    let seconds = Some((steps as f32 - 0.25) * scene.dt);
+    let run = Run::new(scene.build().unwrap(), RunOptions { seconds, record: false }).unwrap();
+    assert_eq!(run.step_count(), u64::from(steps));
+    run.complete(&mut |_, _| ()).unwrap().summary
+}
+
+#[test]
+fn documents_are_right_and_the_same_in_every_notation() {
+    for scene in scenes() {
+        let document = default_document(scene);
+        assert_eq!(document.problems(), [], "{}", scene.name);
+        assert_eq!((&*document.name, &*document.description), (scene.name, scene.description));
+        let json = serde_json::to_string(&document).unwrap();
+        let toml = toml::to_string(&document).unwrap();
+        for (text, format) in [(&json, Format::Json), (&json, Format::Json5), (&toml, Format::Toml)] {
+            assert!(parse(text, format).unwrap() == document, "{} as {format:?}", scene.name);
+        }
+    }
+}
+
+#[test]
+fn names_are_plain_and_found_and_others_are_refused_with_a_list() {
+    for scene in scenes() {
+        assert!(scene.name.bytes().all(|b| b.is_ascii_lowercase() || b == b'-'), "{}", scene.name);
+        assert_eq!(find(scene.name).unwrap().name, scene.name);
+        assert!(scene.description.ends_with('.'), "{}", scene.name);
+    }
+    let error = find("icosahedron").unwrap_err();
+    assert!(matches!(&error, Error::UnknownScene { known, .. } if known.len() == scenes().len()));
+    assert!(error.to_string().contains("icosahedra, cloth-on-cube"), "{error}");
+}
+
+#[test]
+fn scenes_build_at_both_ends_of_their_parameters() {
+    for scene in scenes() {
+        for parameter in scene.parameters {
+            for value in [parameter.min, parameter.max] {
+                let mut parameters = scene.defaults();
+                parameters.set(parameter.name, value).unwrap();
+                let document = scene.document(&parameters);
+                assert_eq!(document.problems(), [], "{} {} = {value}", scene.name, parameter.name);
+                let mut built = document.build().unwrap();
+                let report = built.world.step(built.dt).unwrap();
+                assert_eq!(report.faults, [], "{} {} = {value}", scene.name, parameter.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn parameters_are_set_from_text_and_refused_by_name() {
+    let scene = find("icosahedra").unwrap();
+    let mut parameters = scene.defaults();
+    parameters.assign(" n = 7 ").unwrap();
+    assert_eq!((parameters.get("n"), parameters.get("seed")), (Some(7.0), Some(1.0)));
+    let refusals = [
+        ("m=7", "the scene icosahedra has no parameter named \"m\"; it has: n, seed"),
+        ("n=0", "n: \"0\" is not a whole number from 1 to 5000"),
+        ("n=2.5", "n: \"2.5\" is not a whole number"),
+        ("n=NaN", "n: \"NaN\" is not"),
+        ("n=many", "n: \"many\" is not"),
+        ("n=", "n: \"\" is not"),
+        ("n", "n: \"\" is not"),
+        ("seed=-1", "seed: \"-1\" is not"),
+    ];
+    for (assignment, expected) in refusals {
+        let error = parameters.assign(assignment).unwrap_err().to_string();
+        assert!(error.starts_with(expected), "{error}");
+    }
+    assert_eq!(parameters.get("n"), Some(7.0));
+}
+
+#[test]
+fn a_seed_makes_another_scene_of_the_same_kind() {
+    let [one, same, other] = ["seed=5", "seed=5", "seed=6"].map(|seed| with("icosahedra", &[seed]));
+    assert!(one == same && one != other && one.bodies.len() == other.bodies.len());
+}
+
+#[test]
+fn thrown_bodies_begin_apart_and_inside_the_room() {
+    for n in ["n=1", "n=9", "n=28", "n=50", "n=200"] {
+        let summary = run(&with("icosahedra", &[n]), 1);
+        // In a step at 5 m/s they move 8 cm.
+        assert!(summary.escaped == 0 && summary.max_penetration_mm < 85.0, "{n}: {summary:?}");
+        let built = with("icosahedra", &[n]).build().unwrap();
+        assert_eq!(built.world.penetration().count, 0, "{n}");
+    }
+}
+
+#[test]
+fn scenes_run_without_fault() {
+    for scene in scenes() {
+        for solver in [Solver::Default, Solver::Paper] {
+            let mut document = default_document(scene);
+            document.settings.use_solver(solver);
+            let summary = run(&document, 60);
+            assert_eq!((summary.nonfinite, summary.escaped), (0, 0), "{} {solver:?}", scene.name);
+            assert!(summary.kinetic_energy.is_finite(), "{} {solver:?}", scene.name);
+        }
+    }
+}
+
+/// What a user sees at the end.
+#[test]
+fn cloth_stays_on_what_it_falls_on() {
+    for (name, lowest) in [("cloth-on-cube", 0.7), ("cloth-on-rope", 1.0)] {
+        for solver in [Solver::Default, Solver::Paper] {
+            let mut document = with(name, &["n=20"]);
+            document.settings.use_solver(solver);
+            let built = document.build().unwrap();
+            let cloth = built.parts.iter().find(|part| part.look == Look::Sheet).unwrap().body;
+            let mut run = Run::new(built, RunOptions { seconds: Some(4.0), record: false }).unwrap();
+            for _ in 0..run.step_count() {
+                run.step().unwrap();
+            }
+            let cloth = run.world().body(cloth).unwrap();
+            let height = cloth.center_of_mass().y;
+            assert!(height > lowest, "{name} {solver:?}: at {height} m");
+            let inside = |x: &tautline::Vec3| x.x.abs().max(x.z.abs()).max((x.y - 0.5).abs()) < 0.49;
+            let pierced = name == "cloth-on-cube" && cloth.positions().iter().any(inside);
+            assert!(
+                !pierced && run.world().strain().max < 0.1,
+                "{name} {solver:?}: {:?}",
+                run.world().strain()
+            );
+        }
+    }
+}
+
+#[test]
+fn stacks_stand() {
+    for (name, n) in [("tower", "n=10"), ("pyramid", "n=6")] {
+        let mut built = with(name, &[n]).build().unwrap();
+        let before = built.world.positions().to_vec();
+        for _ in 0..300 {
+            built.world.step(built.dt).unwrap();
+        }
+        let moved = built.world.positions().iter().zip(&before).map(|(a, b)| a.distance(*b));
+        let moved = moved.fold(0.0, f32::max);
+        assert!(moved < 0.02, "{name}: by {moved} m");
+    }
+}
+
+/// The hash of a scene after 120 steps, and why it last changed.
+#[derive(Debug, Serialize, Deserialize)]
+struct Golden {
+    hash: String,
+    because: String,
+}
+
+fn hash_in_pool(document: &Scene, threads: usize) -> String {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    pool.install(|| run(document, 120).state_hash)
+}
+
+/// Guards against drift and against threads. Where a change of the engine means to change motion,
+/// `UPDATE_GOLDEN_HASHES="the reason" cargo test -p tautline-scene --test registry` writes what is new.
+#[test]
+fn hashes_are_the_golden_ones_on_any_number_of_threads() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden_hashes.json");
+    let reason = std::env::var("UPDATE_GOLDEN_HASHES").ok();
+    let mut golden: BTreeMap<String, Golden> =
+        std::fs::read(path).ok().map(|bytes| serde_json::from_slice(&bytes).unwrap()).unwrap_or_default();
+    let mut found = BTreeMap::new();
+    for scene in scenes() {
+        for solver in [Solver::Default, Solver::Paper] {
+            let mut document = default_document(scene);
+            document.settings.use_solver(solver);
+            let [one, two] = [1, 2].map(|threads| hash_in_pool(&document, threads));
+            assert_eq!(one, two, "{} {solver:?} on one thread and on two", scene.name);
+            found.insert(format!("{} {solver:?}", scene.name).to_lowercase(), one);
+        }
+    }
+    if let Some(because) = reason {
+        golden.retain(|name, _| found.contains_key(name));
+        for (name, hash) in &found {
+            if golden.get(name).is_none_or(|golden| golden.hash != *hash) {
+                golden.insert(name.clone(), Golden { hash: hash.clone(), because: because.clone() });
+            }
+        }
+        let text = serde_json::to_string_pretty(&golden).unwrap() + "\n";
+        std::fs::write(path, text).unwrap();
+    }
+    let golden: BTreeMap<String, String> =
+        golden.into_iter().map(|(name, golden)| (name, golden.hash)).collect();
+    assert_eq!(found, golden);
+}
