@@ -3,11 +3,17 @@
 mod program;
 
 use std::fs;
+use std::path::Path;
 use std::process::Command;
 
-use program::{errors, json, printed, tautline, texts};
+use program::{errors, printed, tautline, texts};
 use serde_json::Value;
 use tempfile::tempdir;
+
+/// The JSON that a call that succeeds prints.
+fn json(folder: &Path, arguments: &[&str]) -> Value {
+    serde_json::from_str(&printed(folder, arguments)).unwrap()
+}
 
 #[test]
 fn list_names_every_scene_with_its_parameters() {
@@ -156,7 +162,7 @@ fn text_that_is_no_document_is_named_by_line_and_column() {
     let folder = tempdir().unwrap();
     fs::write(folder.path().join("torn.json"), "{ \"tautline\": 1,\n \"bodies\": [").unwrap();
     let errors = errors(folder.path(), &["check", "torn.json"], 1);
-    assert!(errors[0].starts_with("error: torn.json: line 2, column "), "{errors:?}");
+    assert!(errors[0].starts_with("error: torn.json: bodies: line 2, column 12: "), "{errors:?}");
 }
 
 #[test]

@@ -24,15 +24,44 @@ pub(super) struct Chart {
     pub(super) panels: Vec<Panel>,
 }
 
-/// Lines over common axes; the vertical one starts at 0.
+/// Lines over common axes.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Panel {
     /// What is counted along the horizontal axis.
     pub(super) x_label: &'static str,
     /// What the lines show.
     pub(super) y_label: &'static str,
+    /// How the vertical axis is divided.
+    pub(super) scale: Scale,
     /// The lines, at most as many as there are colours.
     pub(super) lines: Vec<Line>,
+}
+
+/// How a vertical axis is divided.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Scale {
+    /// Evenly, from 0.
+    Linear,
+    /// By powers of ten; all values are above 0.
+    Logarithmic,
+}
+
+impl Scale {
+    /// Where a value is along the axis.
+    fn place(self, value: f64) -> f64 {
+        match self {
+            Self::Linear => value,
+            Self::Logarithmic => libm::log10(value),
+        }
+    }
+
+    /// Which value is there.
+    fn value(self, place: f64) -> f64 {
+        match self {
+            Self::Linear => place,
+            Self::Logarithmic => libm::exp10(place),
+        }
+    }
 }
 
 /// One line.
@@ -114,15 +143,21 @@ fn draw_panel<B: DrawingBackend>(panel: &Panel, area: &DrawingArea<B, Shift>, sc
 where
     B::ErrorType: 'static,
 {
-    let points = || panel.lines.iter().flat_map(|line| &line.points);
-    let x_first = points().map(|p| p.0).fold(f64::INFINITY, f64::min).min(0.0);
-    let x_last = points().map(|p| p.0).fold(1.0, f64::max);
-    let y_last = points().map(|p| p.1).fold(1.0, f64::max);
+    let places = |line: &Line| -> Vec<(f64, f64)> {
+        line.points.iter().map(|&(x, y)| (x, panel.scale.place(y))).collect()
+    };
+    let all: Vec<(f64, f64)> = panel.lines.iter().flat_map(places).collect();
+    let x_last = all.iter().map(|p| p.0).fold(1.0, f64::max);
+    let y_last = all.iter().map(|p| p.1).fold(1.0, f64::max);
+    let y_first = match panel.scale {
+        Scale::Linear => 0.0,
+        Scale::Logarithmic => all.iter().map(|p| p.1).fold(y_last, f64::min).floor(),
+    };
     let mut axes = ChartBuilder::on(area)
         .margin(8 * scale)
         .x_label_area_size(38 * scale)
         .y_label_area_size(62 * scale)
-        .build_cartesian_2d(x_first..x_last * 1.04, 0.0..y_last * 1.12)?;
+        .build_cartesian_2d(0.0..x_last * 1.04, y_first..y_last * 1.12)?;
     axes.configure_mesh()
         .bold_line_style(GRID.stroke_width(scale))
         .light_line_style(TRANSPARENT)
@@ -133,21 +168,21 @@ where
         .x_labels(6)
         .y_labels(6)
         .x_label_formatter(&|x| number(*x))
-        .y_label_formatter(&|y| number(*y))
+        .y_label_formatter(&|y| number(panel.scale.value(*y)))
         .x_desc(panel.x_label)
         .y_desc(panel.y_label)
         .draw()?;
     for (line, color) in panel.lines.iter().zip(COLORS) {
         let style = color.stroke_width(2 * scale);
-        let dots = line.points.iter().map(|&point| Circle::new(point, 4 * scale, color.filled()));
-        axes.draw_series(LineSeries::new(line.points.iter().copied(), style))?
+        let dots = places(line).into_iter().map(|point| Circle::new(point, 4 * scale, color.filled()));
+        axes.draw_series(LineSeries::new(places(line), style))?
             .label(line.name)
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 16 * scale as i32, y)], style));
         axes.draw_series(dots)?;
     }
     if panel.lines.len() > 1 {
         axes.configure_series_labels()
-            .position(SeriesLabelPosition::UpperLeft)
+            .position(legend_position(&panel.lines))
             .legend_area_size(22 * scale)
             .margin(10 * scale)
             .background_style(WHITE.mix(0.85))
@@ -155,6 +190,14 @@ where
             .draw()?;
     }
     Ok(())
+}
+
+/// The upper corner that the lines leave free.
+fn legend_position(lines: &[Line]) -> SeriesLabelPosition {
+    match lines.first().map(|line| line.points.as_slice()) {
+        Some([first, .., last]) if first.1 > last.1 => SeriesLabelPosition::UpperRight,
+        _ => SeriesLabelPosition::UpperLeft,
+    }
 }
 
 fn font(size: u32, scale: u32) -> TextStyle<'static> {
@@ -186,14 +229,20 @@ mod tests {
     fn chart() -> Chart {
         let rising = Line { name: "rising", points: vec![(5.0, 10.0), (50.0, 12_500.0)] };
         let falling = Line { name: "falling", points: vec![(5.0, 9000.0), (50.0, 20.0)] };
-        let panel = Panel { x_label: "bodies", y_label: "per step", lines: vec![rising, falling] };
-        Chart { file: "test", title: "A chart".into(), panels: vec![panel.clone(), panel] }
+        let panel = Panel {
+            x_label: "bodies",
+            y_label: "per step",
+            scale: Scale::Linear,
+            lines: vec![rising, falling],
+        };
+        let logarithmic = Panel { scale: Scale::Logarithmic, ..panel.clone() };
+        Chart { file: "test", title: "A chart".into(), panels: vec![panel, logarithmic] }
     }
 
     #[test]
     fn both_formats_show_title_axes_and_lines() {
         let svg = svg(&chart()).unwrap();
-        for text in ["A chart", "bodies", "per step", "rising", "falling", "10 000"] {
+        for text in ["A chart", "bodies", "per step", "rising", "falling", "10 000", "100"] {
             assert!(svg.contains(text), "{text} is not in the SVG");
         }
         let image = image(&chart()).unwrap();

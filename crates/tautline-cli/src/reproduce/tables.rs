@@ -1,6 +1,6 @@
 //! Results as comma-separated values and as charts.
 
-use super::charts::{Chart, Line, Panel};
+use super::charts::{Chart, Line, Panel, Scale};
 use super::experiments::{ClothPoint, Results, RigidPoint};
 use super::study::Row;
 
@@ -38,7 +38,7 @@ fn cloth_csv(points: &[ClothPoint]) -> String {
 fn study_csv(rows: &[Row]) -> String {
     let mut text = "group,situation,body,sticks,stick_order,tolerance,sweeps,relaxations_ordered,\
                     relaxations_unordered,ratio,visits_ordered,visits_unordered,mean_strain_ordered,\
-                    mean_strain_unordered\n"
+                    mean_strain_unordered,unfinished_ordered,unfinished_unordered\n"
         .to_owned();
     for row in rows {
         let ratio = row.ratio().map_or_else(String::new, |ratio| format!("{ratio:.4}"));
@@ -47,14 +47,15 @@ fn study_csv(rows: &[Row]) -> String {
         text += &format!("{},{},{},", row.stick_order, row.tolerance, row.sweeps);
         text += &format!("{:.2},{:.2},{ratio},", row.relaxations_ordered, row.relaxations_unordered);
         text += &format!("{:.2},{:.2},", row.visits_ordered, row.visits_unordered);
-        text += &format!("{:.3e},{:.3e}\n", row.mean_strain_ordered, row.mean_strain_unordered);
+        text += &format!("{:.3e},{:.3e},", row.mean_strain_ordered, row.mean_strain_unordered);
+        text += &format!("{:.3},{:.3}\n", row.unfinished_ordered, row.unfinished_unordered);
     }
     text
 }
 
 /// The charts of the paper's figure 9.
 pub(super) fn charts(results: &Results) -> [Chart; 3] {
-    let icosahedra = |y_label, lines| Panel { x_label: "icosahedra", y_label, lines };
+    let icosahedra = |y_label, lines| Panel { x_label: "icosahedra", y_label, scale: Scale::Linear, lines };
     let rigid = |name, y: fn(&RigidPoint) -> f64| Line {
         name,
         points: results.experiment1.iter().map(|p| (f64::from(p.n), y(p))).collect(),
@@ -65,6 +66,10 @@ pub(super) fn charts(results: &Results) -> [Chart; 3] {
     };
     let cloths = vec![cloth("on a cube", &results.experiment2), cloth("on a rope", &results.experiment3)];
     let resolution = "particles along a side of the cloth";
+    let speeds = vec![
+        rigid("measured", |p| p.fps),
+        Line { name: "the paper, drawing included", points: vec![(50.0, 20.0)] },
+    ];
     let relaxations =
         vec![rigid("ordered", |p| p.relaxations_ordered), rigid("unordered", |p| p.relaxations_unordered)];
     let visits = vec![rigid("ordered", |p| p.visits_ordered), rigid("unordered", |p| p.visits_unordered)];
@@ -72,12 +77,17 @@ pub(super) fn charts(results: &Results) -> [Chart; 3] {
         Chart {
             file: "chart-9a",
             title: "9(a)  Icosahedra in a room: steps per second".into(),
-            panels: vec![icosahedra("steps per second", vec![rigid("steps", |p| p.fps)])],
+            panels: vec![Panel { scale: Scale::Logarithmic, ..icosahedra("steps per second", speeds) }],
         },
         Chart {
             file: "chart-9b",
             title: "9(b)  Cloth with self-collision: steps per second".into(),
-            panels: vec![Panel { x_label: resolution, y_label: "steps per second", lines: cloths }],
+            panels: vec![Panel {
+                x_label: resolution,
+                y_label: "steps per second",
+                scale: Scale::Linear,
+                lines: cloths,
+            }],
         },
         Chart {
             file: "chart-9c",

@@ -3,15 +3,13 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
-use serde_json::Value;
-
 /// Runs it in `folder`.
-pub fn tautline(folder: &Path, arguments: &[&str]) -> Output {
+pub(crate) fn tautline(folder: &Path, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_tautline")).args(arguments).current_dir(folder).output().unwrap()
 }
 
 /// What a call that succeeds prints; nothing may be said on standard error.
-pub fn printed(folder: &Path, arguments: &[&str]) -> String {
+pub(crate) fn printed(folder: &Path, arguments: &[&str]) -> String {
     let output = tautline(folder, arguments);
     let (stdout, stderr) = texts(&output);
     assert!(output.status.success(), "{arguments:?}: {stderr}");
@@ -19,13 +17,8 @@ pub fn printed(folder: &Path, arguments: &[&str]) -> String {
     stdout
 }
 
-/// The JSON that a call that succeeds prints.
-pub fn json(folder: &Path, arguments: &[&str]) -> Value {
-    serde_json::from_str(&printed(folder, arguments)).unwrap()
-}
-
 /// The errors of a call that fails with this exit code, without a word on standard output.
-pub fn errors(folder: &Path, arguments: &[&str], code: i32) -> Vec<String> {
+pub(crate) fn errors(folder: &Path, arguments: &[&str], code: i32) -> Vec<String> {
     let output = tautline(folder, arguments);
     let (stdout, stderr) = texts(&output);
     assert_eq!(output.status.code(), Some(code), "{arguments:?}: {stderr}");
@@ -34,7 +27,7 @@ pub fn errors(folder: &Path, arguments: &[&str], code: i32) -> Vec<String> {
     stderr.lines().map(str::to_owned).collect()
 }
 
-pub fn texts(output: &Output) -> (String, String) {
+pub(crate) fn texts(output: &Output) -> (String, String) {
     let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
     (text(&output.stdout), text(&output.stderr))
 }
