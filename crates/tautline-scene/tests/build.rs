@@ -182,8 +182,8 @@ fn settings_are_the_solvers_own_unless_they_are_given() {
     assert_eq!(settings(""), tautline::Settings::default());
     assert_eq!(settings("solver: 'paper'"), tautline::Settings::paper());
     let given = settings(
-        "gravity: [1, 2, 3], substeps: 3, features_per_pair: 2, sweeps: 7, tolerance: 0.25, ordering: 'as-built',
-         square_root: 'first-order', damping: 0.5, broad_phase: 'all-pairs', sleep: 'never'",
+        "gravity: [1, 2, 3], substeps: 3, features_per_pair: 2, separation_speed: 1.5, sweeps: 7, tolerance: 0.25,
+         ordering: 'as-built', square_root: 'first-order', damping: 0.5, broad_phase: 'all-pairs', sleep: 'never'",
     );
     let relaxation = tautline::Relaxation {
         sweeps: 7,
@@ -195,6 +195,7 @@ fn settings_are_the_solvers_own_unless_they_are_given() {
         gravity: Vec3::new(1.0, 2.0, 3.0),
         substeps: 3,
         features_per_pair: 2,
+        separation_speed: Some(1.5),
         relaxation,
         damping: 0.5,
         broad_phase: tautline::BroadPhase::AllPairs,

@@ -11,6 +11,7 @@ pub(super) fn of(document: &Settings) -> tautline::Settings {
     settings.gravity = document.gravity.into();
     replace(&mut settings.substeps, document.substeps);
     replace(&mut settings.features_per_pair, document.features_per_pair);
+    replace(&mut settings.separation_speed, document.separation_speed.map(Some));
     let relaxation = &mut settings.relaxation;
     replace(&mut relaxation.sweeps, document.sweeps);
     replace(&mut relaxation.tolerance, document.tolerance);

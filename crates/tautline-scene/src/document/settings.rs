@@ -17,6 +17,9 @@ pub struct Settings {
     /// How many features two rigid bodies that touch are separated at in a substep, one after another.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub features_per_pair: Option<u32>,
+    /// Greatest speed at which bodies that have overlapped for longer than a substep are moved apart, in m/s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub separation_speed: Option<f32>,
     /// Relaxation sweeps over all sticks of a body in a substep.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sweeps: Option<u32>,
@@ -47,6 +50,7 @@ impl Default for Settings {
             gravity: [0.0, -9.81, 0.0],
             substeps: None,
             features_per_pair: None,
+            separation_speed: None,
             sweeps: None,
             tolerance: None,
             ordering: None,

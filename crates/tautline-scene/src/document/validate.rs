@@ -73,6 +73,7 @@ fn check_settings(c: &mut Checker, settings: &Settings) {
     if let Some(sweeps) = settings.sweeps {
         c.count("sweeps", sweeps, 1, 10_000);
     }
+    c.optional("separation_speed", settings.separation_speed, POSITIVE);
     c.optional("tolerance", settings.tolerance, TOLERANCE);
     c.optional("damping", settings.damping, RATE);
     if let Some(Sleep::After { speed, seconds }) = settings.sleep {

@@ -5,7 +5,8 @@ use tautline::Vec3;
 use super::random::Random;
 use super::{NamedScene, Parameter, Parameters};
 use crate::document::{
-    Body, Camera, Cloth, HalfSpace, Pin, Rigid, Rope, Rotation, Scene, Settings, Shape, SheetPlace, Surface, Thread,
+    Body, Camera, Cloth, HalfSpace, Pin, Rigid, Rope, Rotation, Scene, Settings, Shape, SheetPlace, Surface,
+    Thread,
 };
 
 pub(super) const HAMMOCK: NamedScene = NamedScene {
@@ -23,7 +24,7 @@ fn hammock(p: &Parameters) -> Scene {
     let cloth = Cloth {
         surface: Surface::Grid { columns: 28, rows: 28, width: SIDE, depth: SIDE },
         position: [0.0, 1.1, 0.0],
-        mass: Some(1.0),
+        mass: 1.0,
         thickness: Some(0.06),
         pins: vec![Pin::Place(SheetPlace::Corners)],
         ..Cloth::default()
@@ -32,8 +33,10 @@ fn hammock(p: &Parameters) -> Scene {
     bodies.extend((0..p.count("n")).map(|i| Body::Rigid(ball(i, &mut random))));
     bodies.push(Body::Rope(Rope {
         path: Thread::Line { from: [-1.7, 2.6, -0.2], to: [1.7, 2.6, 0.2], segments: 60 },
-        mass: Some(0.3),
+        mass: 0.3,
         radius: 0.03,
+        self_collision: true,
+        bending: Some(2.0),
         ..Rope::default()
     }));
     let settings = Settings { substeps: Some(16), ..Settings::default() };
