@@ -153,7 +153,7 @@ fn near_row(row: &Row) -> String {
         format!("but {ordered} % and {unordered} % of the steps end beyond the tolerance")
     };
     format!(
-        "- **{:.2}**: {} of {} sticks, {}, {} %, {} sweeps; {result}\n",
+        "- **{:.2}**: {}, {} sticks, {}, a tolerance of {} %, sweeps {}; {result}\n",
         row.ratio().unwrap_or_default(),
         row.body,
         row.sticks,
