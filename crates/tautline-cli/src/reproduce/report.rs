@@ -153,7 +153,7 @@ fn near_row(row: &Row) -> String {
         format!("but {ordered} % and {unordered} % of the steps end beyond the tolerance")
     };
     format!(
-        "- **{:.2}**: {} of {} sticks, {}, {} %, {} sweeps; {result}\n",
+        "- **{:.2}**: {}, {} sticks, {}, a tolerance of {} %, sweeps {}; {result}\n",
         row.ratio().unwrap_or_default(),
         row.body,
         row.sticks,
@@ -229,12 +229,13 @@ the median of three runs, or of one where that takes more than 3 s; whatever els
 with the number of bodies, up to 5 m/s and 5 rad/s, 0.5, and 2 m on a cube of 1 m.
 - Pairs are found by sort and sweep; the paper tests all of them. The result is the same, bit for bit.
 - Equation 10 is printed with the masses exchanged, which moves the heavier body further. It is used as momentum \
-demands. The infimum of equation 5 is taken over the points outside the obstacle.
+demands, with the mass that each feature presents at the contact rather than the whole body's. The infimum of \
+equation 5 is taken over the points outside the obstacle.
 - A stick that occurs several times in a list is not relaxed several times at once, which would do nothing: lists are \
 laid out in rounds.
 - Sweeps end early once no stick is off by more than the tolerance.
 - The paper omits friction and how resting bodies are spared. Friction is Coulomb's in position form; bodies that \
 rest for half a second sleep until they are touched. In the study above nothing sleeps.
-- Self-collision leaves out cells of the cloth that share a vertex. Leaving out only what shares a vertex with the \
-same triangle would push neighbours apart.
+- Self-collision leaves out pairs of cells of the cloth that are neighbours, also across a corner: their spheres \
+always overlap, and separating them would tear the cloth apart.
 ";
