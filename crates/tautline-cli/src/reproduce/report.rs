@@ -236,6 +236,8 @@ laid out in rounds.
 - Sweeps end early once no stick is off by more than the tolerance.
 - The paper omits friction and how resting bodies are spared. Friction is Coulomb's in position form; bodies that \
 rest for half a second sleep until they are touched. In the study above nothing sleeps.
-- Self-collision leaves out pairs of cells of the cloth that are neighbours, also across a corner: their spheres \
-always overlap, and separating them would tear the cloth apart.
+- Cloth touches a solid as soon as the centre of a leaf sphere is nearer to it than the cloth's thickness (0.6 of the \
+mean edge here), so that nothing pokes through between its particles; the paper's rule is a thickness of 0.
+- Self-collision leaves out pairs of cells whose spheres overlap already at rest: they would push each other apart for \
+ever.
 ";
