@@ -27,12 +27,10 @@ pub(crate) fn find(scene: &str, assignments: &[String]) -> Result<Scene, Failure
     }
 }
 
-/// Replaces the solver, with all of its own choices; gravity, damping and sleep stay the scene's.
+/// Replaces the solver; see [`document::Settings::use_solver`].
 pub(crate) fn use_solver(scene: &mut Scene, solver: Solver) {
-    let solver = match solver {
+    scene.settings.use_solver(match solver {
         Solver::Paper => document::Solver::Paper,
         Solver::Default => document::Solver::Default,
-    };
-    let document::Settings { gravity, damping, sleep, .. } = scene.settings;
-    scene.settings = document::Settings { solver, gravity, damping, sleep, ..document::Settings::default() };
+    });
 }

@@ -1,7 +1,7 @@
 //! The paper's three experiments (section 7), over its ranges, with the settings of the paper.
 
 use serde::Serialize;
-use tautline_scene::document::{Ordering, Scene, Settings, Solver};
+use tautline_scene::document::{Ordering, Scene, Settings, Sleep, Solver};
 use tautline_scene::registry;
 use tautline_scene::run::{Run, RunOptions, RunSummary};
 
@@ -128,14 +128,14 @@ fn cloth_point(scene: &str, n: u32, steps: u16) -> Result<ClothPoint, Failure> {
     })
 }
 
-/// A named scene, solved as the paper does.
+/// A named scene, solved as the paper does, and with nothing put to sleep: figures are of bodies that are moved.
 pub(super) fn as_in_the_paper(scene: &str, values: &[(&str, u32)]) -> Result<Scene, Failure> {
     let named = registry::find(scene)?;
     let mut parameters = named.defaults();
     for &(name, value) in values {
         parameters.set(name, f64::from(value))?;
     }
-    let settings = Settings { solver: Solver::Paper, ..Settings::default() };
+    let settings = Settings { solver: Solver::Paper, sleep: Some(Sleep::Never), ..Settings::default() };
     Ok(Scene { settings, ..named.document(&parameters) })
 }
 

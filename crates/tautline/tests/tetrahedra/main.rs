@@ -81,16 +81,12 @@ fn the_gallery_is_divided() {
     }
 }
 
-/// For timings: run it by name, in release, with `--ignored --nocapture`.
 #[test]
-#[ignore = "takes most of a minute"]
 fn large_meshes_are_divided() {
     divided("thin torus", &torus(60, 5, 0.03));
     divided("trefoil 2 400", &trefoil(150, 8, 0.35));
-    divided("torus 10 000", &torus(100, 50, 0.3));
     divided("spiky 20 480", &spiky(5, 0.1, 1));
-    divided("trefoil 9 600", &trefoil(300, 16, 0.35));
-    for seed in 0..8 {
+    for seed in 0..2 {
         divided("needles", &spiky(3, 0.95, seed));
     }
 }
