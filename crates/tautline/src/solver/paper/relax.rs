@@ -67,10 +67,12 @@ impl Task<'_> {
         self.counts = match &mut self.body.shape {
             Shape::Truss { truss } => {
                 let lists = truss.ordered_lists();
-                let order = self
-                    .moved
-                    .filter(|_| settings.ordering == Ordering::ByDistance)
-                    .map(|moved| lists.list(moved.particle - first));
+                let order = match self.moved {
+                    Some(moved) if settings.ordering == Ordering::ByDistance => {
+                        Order::Listed(lists.list(moved.particle - first))
+                    }
+                    _ => Order::AsBuilt,
+                };
                 relax_sticks(&mut self.particles, truss.sticks(), order, settings)
             }
             Shape::Deformable(deformable) => relax_deformable(&mut self.particles, deformable, settings, h),
@@ -79,19 +81,45 @@ impl Task<'_> {
     }
 }
 
+/// In which order a body's sticks are swept.
+#[derive(Debug, Clone, Copy)]
+enum Order<'a> {
+    /// By a list of indices.
+    Listed(&'a [u32]),
+    /// From the first to the last.
+    AsBuilt,
+    /// From the first to the last and, every other time, back: always the same way, errors are pushed that way,
+    /// and a cloth creeps off a cube.
+    BackAndForth,
+}
+
+/// Sweep number `sweep` over a body's sticks.
+fn sweep_in_order(
+    particles: &mut ParticlesMut<'_>,
+    sticks: &[Stick],
+    order: Order<'_>,
+    sweep: u32,
+    settings: &Relaxation,
+) -> Counts {
+    let all = 0..sticks.len();
+    match order {
+        Order::Listed(list) => {
+            sweep_sticks(particles, sticks, list.iter().map(|&index| index as usize), settings)
+        }
+        Order::BackAndForth if sweep % 2 == 1 => sweep_sticks(particles, sticks, all.rev(), settings),
+        Order::AsBuilt | Order::BackAndForth => sweep_sticks(particles, sticks, all, settings),
+    }
+}
+
 fn relax_sticks(
     particles: &mut ParticlesMut<'_>,
     sticks: &[Stick],
-    order: Option<&[u32]>,
+    order: Order<'_>,
     settings: &Relaxation,
 ) -> Counts {
     let mut total = Counts::default();
     for sweep in 0..settings.sweeps {
-        let counts = match order {
-            Some(list) => sweep_sticks(particles, sticks, list.iter().map(|&index| index as usize), settings),
-            None if sweep % 2 == 0 => sweep_sticks(particles, sticks, 0..sticks.len(), settings),
-            None => sweep_sticks(particles, sticks, (0..sticks.len()).rev(), settings),
-        };
+        let counts = sweep_in_order(particles, sticks, order, sweep, settings);
         total += counts;
         if counts.relaxations == 0 {
             break;
@@ -108,17 +136,17 @@ fn relax_deformable(
 ) -> Counts {
     let Deformable { sticks, angles, bendings, multipliers, .. } = deformable;
     if angles.is_empty() && bendings.is_empty() {
-        return relax_sticks(particles, sticks, None, settings);
+        return relax_sticks(particles, sticks, Order::BackAndForth, settings);
     }
     let inverse_h_squared = 1.0 / (h * h);
     multipliers.clear();
     multipliers.resize(angles.len() + bendings.len(), 0.0);
     let (at_particles, at_edges) = multipliers.split_at_mut(angles.len());
     let mut total = Counts::default();
-    for _ in 0..settings.sweeps {
+    for sweep in 0..settings.sweeps {
         sweep_angles(particles, angles, at_particles, inverse_h_squared);
         sweep_bendings(particles, bendings, at_edges, inverse_h_squared);
-        total += sweep_sticks(particles, sticks, 0..sticks.len(), settings);
+        total += sweep_in_order(particles, sticks, Order::BackAndForth, sweep, settings);
     }
     total
 }
