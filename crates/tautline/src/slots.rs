@@ -57,14 +57,21 @@ impl Slots {
         }
     }
 
+    /// Whether every empty slot is free exactly once, and no other is.
+    fn is_free_sound(&self) -> bool {
+        let empty = (0..self.slots.len() as u32).filter(|&slot| self.slots[slot as usize].1.is_none());
+        let mut free = self.free.clone();
+        free.sort_unstable();
+        empty.eq(free)
+    }
+
     pub(crate) fn is_valid(&self, body_count: usize) -> bool {
         self.of_body.len() == body_count
             && self.of_body.iter().enumerate().all(|(index, &slot)| {
                 self.slots.get(slot as usize).is_some_and(|&(_, body)| body == Some(index as u32))
             })
             && self.slots.iter().flat_map(|(_, body)| body).count() == body_count
-            && self.free.len() + body_count == self.slots.len()
-            && self.free.iter().all(|&slot| self.slots.get(slot as usize).is_some_and(|(_, b)| b.is_none()))
+            && self.is_free_sound()
     }
 }
 

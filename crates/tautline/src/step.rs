@@ -11,6 +11,9 @@ use crate::rest::{put_to_sleep, wake_touched};
 use crate::solver::paper::{relax_bodies, separate};
 use crate::world::{Scratch, World};
 
+/// How many times faster than what puts a body to sleep is what wakes it.
+const WAKING_SPEED: f32 = 2.0;
+
 impl World {
     /// Advances the world by `dt` seconds, in `settings.substeps` equal substeps.
     ///
@@ -18,7 +21,7 @@ impl World {
     /// number of threads. It never panics; a particle that turns non-finite is frozen and reported.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] unless `dt` is above 0 and at most 1 s; the world is as before.
+    /// [`Error::OutOfRange`] unless `dt` is from 1e-7 to 1 s; the world is as before.
     pub fn step(&mut self, dt: f32) -> Result<StepReport, Error> {
         self.step_with_clock(dt, &mut || 0.0)
     }
@@ -92,13 +95,9 @@ impl World {
         self.contain_faults(report);
     }
 
-    /// Fits the sphere trees of deformable bodies to their particles; those of rigid bodies follow lazily.
     fn refit_trees(&mut self) {
         for body in self.bodies.iter_mut().filter(|body| body.is_awake()) {
-            if let Shape::Deformable(deformable) = &mut body.shape {
-                // It fails only for a range that is too short, which a body's own never is.
-                let _ = deformable.tree.refit(&self.particles.position[body.particles.clone()]);
-            }
+            body.refit_tree(&self.particles.position);
         }
     }
 
@@ -121,10 +120,11 @@ impl World {
         self.scratch.narrow_phase.find_contacts(scene, &mut self.pairs.pairs, &mut self.scratch.contacts);
     }
 
+    /// A body wakes at more speed than it falls asleep at, or it would do both in turn.
     fn wake_touched(&mut self, h: f32) {
         if let Some(sleep) = self.settings.sleep {
             let gravity_step = self.settings.gravity * (h * h);
-            let reach = 2.0 * sleep.speed * h;
+            let reach = WAKING_SPEED * sleep.speed * h;
             let contacts = &self.scratch.contacts;
             wake_touched(&mut self.bodies, &self.particles, contacts, gravity_step, reach);
         }

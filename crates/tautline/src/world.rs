@@ -283,6 +283,7 @@ impl World {
         self.wake_body(index);
         self.wake_around_fixed(index);
         self.particles.position[i] = position;
+        self.bodies[index].refit_tree(&self.particles.position);
         self.wake_around_fixed(index);
         Ok(())
     }

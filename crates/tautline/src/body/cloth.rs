@@ -144,14 +144,17 @@ impl Cloth {
         }
         let rotation = self.rotation.normalize();
         let positions: Vec<Vec3> = mesh.positions.iter().map(|&p| self.position + rotation * p).collect();
-        let sticks: Vec<Stick> = half_edges.edges().map(|[a, b]| Stick::at_rest(a, b, &positions)).collect();
+        // At rest in the surface's own frame: placed far from the origin, positions are rounded.
+        let rest = &mesh.positions;
+        let sticks: Vec<Stick> = half_edges.edges().map(|[a, b]| Stick::at_rest(a, b, rest)).collect();
+        Stick::check_all(&sticks, "surface")?;
         let mean_edge = sticks.iter().map(|stick| stick.rest_length).sum::<f32>() / sticks.len() as f32;
         let leaves = match self.surface {
             Surface::Grid { columns, rows, .. } => grid_cells(columns, rows),
             Surface::Mesh(_) => mesh.triangles.iter().map(|&t| Feature::Triangle(t)).collect(),
         };
         let parts = Parts {
-            bendings: bendings(&half_edges, &positions, self.bending_compliance),
+            bendings: bendings(&half_edges, rest, self.bending_compliance),
             triangles: mesh.triangles,
             sticks,
             angles: Vec::new(),
@@ -160,7 +163,7 @@ impl Cloth {
             thickness: self.thickness.unwrap_or(0.6 * mean_edge),
             self_collision: self.self_collision,
         };
-        let body = Deformable::new(parts, &positions)?;
+        let body = Deformable::new(parts, rest)?;
         let Self { velocity, mass, friction, pins, .. } = self;
         Ok(BuiltDeformable { positions, body, velocity, mass, friction, pins })
     }

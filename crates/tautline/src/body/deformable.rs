@@ -68,21 +68,25 @@ impl Deformable {
 
     pub(crate) fn validate(&self, particle_count: usize) -> Result<(), Error> {
         self.tree.validate(particle_count)?;
+        let sound_compliance = |compliance: f32| (0.0..f32::INFINITY).contains(&compliance);
         let ok = |indices: &[u32]| indices.iter().all(|&i| (i as usize) < particle_count);
         let sound = self.triangles.iter().all(|t| ok(t))
-            && self.sticks.iter().all(|s| ok(&[s.a, s.b]) && s.rest_length.is_finite())
-            && self.angles.iter().all(|a| ok(&[a.a, a.b, a.c]) && a.limit.is_finite() && a.compliance >= 0.0)
+            && self.sticks.iter().all(|s| ok(&[s.a, s.b]) && s.is_sound())
             && self
-                .bendings
+                .angles
                 .iter()
-                .all(|b| ok(&b.edge) && ok(&b.wings) && b.limit.is_finite() && b.compliance >= 0.0)
+                .all(|a| ok(&[a.a, a.b, a.c]) && a.limit.is_finite() && sound_compliance(a.compliance))
+            && self.bendings.iter().all(|b| {
+                ok(&b.edge) && ok(&b.wings) && b.limit.is_finite() && sound_compliance(b.compliance)
+            })
             && self.thickness >= 0.0
             && self.neighbours.as_ref().is_none_or(|n| n.is_valid(self.tree.topology().leaf_count()));
         if sound { Ok(()) } else { Err(Error::Snapshot("a cloth or rope is inconsistent".into())) }
     }
 }
 
-/// Leaves of one tree that do not collide with each other, because their spheres overlap at rest.
+/// Leaves of one tree that do not collide with each other, because they hang together and their spheres overlap
+/// at rest.
 ///
 /// On a square grid these are the cells at Chebyshev distance 1. Excluding only leaves that share a vertex
 /// would leave pairs that push each other apart for ever; where cells are oblong, more than one ring overlaps.
@@ -97,19 +101,18 @@ pub(crate) struct Neighbours {
 impl Neighbours {
     /// Of a tree that is fitted to the rest positions.
     fn of(tree: &LayeredTree) -> Self {
-        let mut pairs = Vec::new();
-        descend_self(
-            tree,
-            &mut DescentStack::default(),
-            |_, _| false,
-            |a, b| {
-                pairs.push((a.min(b) as u32, a.max(b) as u32));
-            },
-        );
-        pairs.sort_unstable();
-        let leaves = 0..=tree.topology().leaf_count();
-        let starts = leaves.map(|leaf| pairs.partition_point(|&(a, _)| (a as usize) < leaf) as u32).collect();
-        Self { others: pairs.into_iter().map(|(_, b)| b).collect(), starts }
+        let features = tree.topology().features();
+        let mut overlapping: Vec<Vec<u32>> = vec![Vec::new(); features.len()];
+        let visit = |a: usize, b: usize| overlapping[a.min(b)].push(a.max(b) as u32);
+        descend_self(tree, &mut DescentStack::default(), |_, _| false, visit);
+        let (mut others, mut starts) = (Vec::new(), vec![0]);
+        for (leaf, overlapping) in overlapping.into_iter().enumerate() {
+            let from = others.len();
+            others.extend(connected(leaf, overlapping, features));
+            others[from..].sort_unstable();
+            starts.push(others.len() as u32);
+        }
+        Self { others, starts }
     }
 
     #[inline]
@@ -122,5 +125,67 @@ impl Neighbours {
         self.starts.len() == leaf_count + 1
             && self.starts.is_sorted()
             && self.starts[leaf_count] as usize <= self.others.len()
+    }
+}
+
+/// Those of the `overlapping` leaves that hang together with `leaf` through each other: the strand of a rope
+/// that crosses itself overlaps too, but is no neighbour.
+fn connected(leaf: usize, mut overlapping: Vec<u32>, features: &[Feature]) -> Vec<u32> {
+    let touch = |a: u32, b: u32| {
+        let particles = features[b as usize].particles();
+        features[a as usize].particles().iter().any(|particle| particles.contains(particle))
+    };
+    let mut found = vec![leaf as u32];
+    let mut next = 0;
+    while let Some(&from) = found.get(next) {
+        found.extend(overlapping.extract_if(.., |other| touch(from, *other)));
+        next += 1;
+    }
+    found.split_off(1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::primitives;
+
+    #[test]
+    fn neighbours_on_a_square_grid_are_at_chebyshev_distance_1() {
+        let n = 6u32;
+        let mesh = primitives::grid(n, n, 1.0, 1.0).unwrap();
+        let cell = |row: u32, column: u32| {
+            let first = row * n + column;
+            Feature::Quad([first, first + 1, first + n + 1, first + n])
+        };
+        let cells = (0..n - 1).flat_map(|row| (0..n - 1).map(move |column| (row, column)));
+        let leaves: Vec<Feature> = cells.map(|(row, column)| cell(row, column)).collect();
+        let tree = LayeredTree::new(&leaves, &mesh.positions, 0.0).unwrap();
+        let neighbours = Neighbours::of(&tree);
+        let place = |leaf: usize| {
+            let index = tree.topology().feature_indices()[leaf];
+            [index / (n - 1), index % (n - 1)]
+        };
+        for a in 0..leaves.len() {
+            for b in (0..leaves.len()).filter(|&b| b != a) {
+                let distance = (0..2).map(|k| place(a)[k].abs_diff(place(b)[k])).max().unwrap();
+                assert_eq!(neighbours.contains(a, b), distance <= 1, "{:?} {:?}", place(a), place(b));
+            }
+        }
+    }
+
+    #[test]
+    fn strands_that_cross_are_no_neighbours() {
+        // Along x, round a corner, back, and over the second segment.
+        let flat =
+            |points: &[[f32; 2]]| points.iter().map(|&[x, z]| Vec3::new(x, 0.0, z)).collect::<Vec<_>>();
+        let mut points =
+            flat(&[[0., 0.], [1., 0.], [2., 0.], [3., 0.], [4., 0.], [5., 0.], [5., 1.], [5., 2.]]);
+        points.extend(flat(&[[4., 2.5], [3., 2.5], [2., 2.5], [1.5, 1.5], [1.5, 0.5], [1.5, -0.5]]));
+        let leaves: Vec<Feature> = (0..13).map(|i| Feature::Segment([i, i + 1])).collect();
+        let tree = LayeredTree::new(&leaves, &points, 0.1).unwrap();
+        let neighbours = Neighbours::of(&tree);
+        let leaf = |index: u32| tree.topology().feature_indices().iter().position(|&i| i == index).unwrap();
+        assert!(neighbours.contains(leaf(0), leaf(1)));
+        assert!(!neighbours.contains(leaf(1), leaf(12)), "segment 12 crosses segment 1");
     }
 }

@@ -116,6 +116,15 @@ impl Body {
         !self.fixed && !self.rest.asleep
     }
 
+    /// Fits the sphere tree of a deformable body to its particles, out of those of the world; those of rigid
+    /// bodies follow lazily.
+    pub(crate) fn refit_tree(&mut self, positions: &[Vec3]) {
+        if let Shape::Deformable(deformable) = &mut self.shape {
+            // It fails only for a range that is too short, which a body's own never is.
+            let _ = deformable.tree.refit(&positions[self.particles.clone()]);
+        }
+    }
+
     /// How far beyond its particles it may touch, in m.
     pub(crate) fn reach(&self) -> f32 {
         match &self.shape {

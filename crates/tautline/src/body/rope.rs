@@ -106,6 +106,7 @@ impl Rope {
         let scale = self.length.map_or(1.0, |length| length / laid_out);
         let mut sticks: Vec<Stick> = (0..last).map(|i| Stick::at_rest(i, i + 1, &self.points)).collect();
         sticks.iter_mut().for_each(|stick| stick.rest_length *= scale);
+        Stick::check_all(&sticks, "length")?;
         let parts = Parts {
             triangles: Vec::new(),
             sticks,

@@ -1,5 +1,6 @@
 //! Rigid bodies as trusses: particles at the vertices of a closed mesh, held by sticks (paper, 4).
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use glam::{Mat3, Quat, Vec3};
@@ -53,6 +54,7 @@ impl Truss {
         let center = mean(&rest);
         rest.iter_mut().for_each(|point| *point -= center);
         let sticks: Vec<Stick> = edges.iter().map(|&[a, b]| Stick::at_rest(a, b, &rest)).collect();
+        Stick::check_all(&sticks, "mesh")?;
         let lists = OrderedLists::new(rest.len(), &sticks);
         let features: Vec<Feature> = mesh.triangles.iter().map(|&t| Feature::Triangle(t)).collect();
         let tree = WrappedTree::new(&features, &rest, TREE_PADDING)?;
@@ -79,9 +81,9 @@ impl Truss {
         &self.sticks
     }
 
-    /// For every particle, the sticks in the order of the paper's list C_v.
-    pub fn ordered_lists(&self) -> &OrderedLists {
-        &self.lists
+    /// The paper's list C_v of a particle v: indices into [`Truss::sticks`]; empty if there is no such particle.
+    pub fn ordered_list(&self, particle: usize) -> Cow<'_, [u32]> {
+        self.lists.list(particle, self.rest.len(), &self.sticks)
     }
 
     /// How many particles lie inside the surface, because no division into tetrahedra does without.
@@ -112,10 +114,11 @@ impl Truss {
         self.tree.validate(count)?;
         let sound = self.surface.vertex_count() <= count
             && self.triangles.iter().flatten().all(|&v| (v as usize) < self.surface.vertex_count())
-            && self.sticks.iter().all(|s| in_range(s.a) && in_range(s.b) && s.rest_length.is_finite())
+            && self.sticks.iter().all(|s| in_range(s.a) && in_range(s.b) && s.is_sound())
             && self.lists.is_valid(count, self.sticks.len())
             && self.rest.iter().all(|point| point.is_finite());
-        if sound { Ok(()) } else { Err(Error::Snapshot("a truss is inconsistent".into())) }
+        let refusal = || Error::Invalid { field: "truss".into(), problem: "its parts disagree".into() };
+        if sound { Ok(()) } else { Err(refusal()) }
     }
 }
 
@@ -193,7 +196,8 @@ impl TrussBody {
         if self.truss.rest.is_empty() {
             return Err(Error::Mesh(MeshDefect::Empty));
         }
-        Ok(())
+        // It may have been read from bytes.
+        self.truss.validate()
     }
 
     pub(crate) fn positions(&self) -> Vec<Vec3> {

@@ -38,9 +38,8 @@ impl PairCache {
     }
 
     pub(crate) fn is_valid(&self, body_count: usize) -> bool {
-        self.pairs
-            .iter()
-            .all(|pair| pair.a < pair.b && (pair.b as usize) < body_count && pair.axis.is_finite())
+        let sound = |pair: &Pair| pair.a < pair.b && (pair.b as usize) < body_count && pair.axis.is_finite();
+        self.pairs.iter().all(sound) && self.pairs.is_sorted_by(|x, y| (x.a, x.b) < (y.a, y.b))
     }
 
     /// Forgets a body; those behind it move down by one.

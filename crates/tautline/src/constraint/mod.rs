@@ -10,11 +10,11 @@ use serde::{Deserialize, Serialize};
 
 pub use angle::Angle;
 pub use bending::Bending;
-pub use order::OrderedLists;
 pub use stick::Stick;
 
 pub(crate) use angle::gradient as angle_gradient;
 pub(crate) use bending::gradient as bending_gradient;
+pub(crate) use order::OrderedLists;
 pub(crate) use stick::scale as stick_scale;
 
 /// What an angle is held to, in rad.
@@ -32,7 +32,7 @@ impl AngleLimit {
     pub fn violation(self, angle: f32) -> f32 {
         match self {
             Self::Target(target) => angle - target,
-            Self::Range(low, high) => angle - angle.clamp(low.min(high), high.max(low)),
+            Self::Range(low, high) => angle - angle.max(low).min(high),
         }
     }
 

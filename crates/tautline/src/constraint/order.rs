@@ -1,5 +1,7 @@
 //! The paper's ordered relaxation lists (6.2): a body's sticks by graph distance from a particle.
 
+use std::borrow::Cow;
+
 use serde::{Deserialize, Serialize};
 
 use super::Stick;
@@ -8,18 +10,26 @@ use super::Stick;
 ///
 /// A stick at distance k = 1, …, n from v (k = 1: incident to v) occurs max(1, ⌊n/k⌋) times. A stick repeated
 /// right after itself would do nothing, so C_v is laid out in rounds: round r = 1, …, n holds, nearest first,
-/// every stick that occurs at least r times.
+/// every stick that occurs at least r times. Sticks that v does not reach come last, once.
+///
+/// The lists are made beforehand, as in the paper, unless the body is so large that they would take more
+/// memory than everything else: then each is made when it is asked for.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct OrderedLists {
+pub(crate) struct OrderedLists {
     /// The lists of all particles, one after another: indices into the body's sticks.
     entries: Vec<u32>,
-    /// Where the list of each particle starts in `entries`, and a last one for the end.
+    /// Where the list of each particle starts in `entries`, and a last one for the end; empty for a large body.
     starts: Vec<u32>,
 }
 
+/// Particles times sticks above which lists are made when asked for.
+const LARGE: usize = 2_000_000;
+
 impl OrderedLists {
-    /// The lists of all `particle_count` particles. Sticks that v does not reach come last, once.
-    pub fn new(particle_count: usize, sticks: &[Stick]) -> Self {
+    pub(crate) fn new(particle_count: usize, sticks: &[Stick]) -> Self {
+        if particle_count.saturating_mul(sticks.len()) > LARGE {
+            return Self::default();
+        }
         let (mut entries, mut starts) = (Vec::new(), vec![0]);
         for particle in 0..particle_count {
             append_list(particle as u32, particle_count, sticks, &mut entries);
@@ -28,17 +38,26 @@ impl OrderedLists {
         Self { entries, starts }
     }
 
-    /// C_v: indices into the body's sticks.
-    pub fn list(&self, particle: usize) -> &[u32] {
-        &self.entries[self.starts[particle] as usize..self.starts[particle + 1] as usize]
+    /// C_v of the body that the lists are of: indices into its sticks; empty if there is no such particle.
+    pub(crate) fn list(&self, particle: usize, particle_count: usize, sticks: &[Stick]) -> Cow<'_, [u32]> {
+        match self.starts.get(particle..=particle + 1) {
+            Some(&[start, end]) => Cow::Borrowed(&self.entries[start as usize..end as usize]),
+            _ if particle < particle_count => {
+                let mut list = Vec::new();
+                append_list(particle as u32, particle_count, sticks, &mut list);
+                Cow::Owned(list)
+            }
+            _ => Cow::Borrowed(&[]),
+        }
     }
 
     pub(crate) fn is_valid(&self, particle_count: usize, stick_count: usize) -> bool {
-        self.starts.len() == particle_count + 1
+        let made = self.starts.len() == particle_count + 1
             && self.starts[0] == 0
             && self.starts.is_sorted()
-            && self.starts[particle_count] as usize == self.entries.len()
-            && self.entries.iter().all(|&stick| (stick as usize) < stick_count)
+            && self.starts[particle_count] as usize == self.entries.len();
+        let empty = self.starts.is_empty() && self.entries.is_empty();
+        (made || empty) && self.entries.iter().all(|&stick| (stick as usize) < stick_count)
     }
 }
 
@@ -97,27 +116,32 @@ mod tests {
     #[test]
     fn figure_7_lists_near_sticks_first_and_repeats_them() {
         let lists = OrderedLists::new(6, &figure_7());
+        let list = lists.list(0, 6, &figure_7());
         // k: c1, c5 → 1; c2, c4, c6, c7 → 2; c3 → 3. n = 3, so that only k = 1 repeats.
-        assert_eq!(lists.list(0), [0, 4, 1, 3, 5, 6, 2, 0, 4, 0, 4]);
+        assert_eq!(*list, [0, 4, 1, 3, 5, 6, 2, 0, 4, 0, 4]);
+        assert_eq!(OrderedLists::default().list(0, 6, &figure_7()), list, "made when asked for");
     }
 
     #[test]
     fn every_stick_occurs_as_often_as_the_paper_says() {
         let chain: Vec<Stick> = (0..12).map(|i| stick(i, i + 1)).collect();
         let lists = OrderedLists::new(13, &chain);
+        let list = lists.list(0, 13, &chain);
         for (index, k) in (1..=12).enumerate() {
-            let count = lists.list(0).iter().filter(|&&s| s as usize == index).count();
+            let count = list.iter().filter(|&&s| s as usize == index).count();
             assert_eq!(count, (12 / k).max(1), "stick at distance {k}");
         }
         assert!(lists.is_valid(13, 12));
-        let rounds = lists.list(0).iter().filter(|&&stick| stick == 0).count();
-        assert!(lists.list(0)[..rounds].is_sorted(), "the first round is nearest first");
+        let rounds = list.iter().filter(|&&stick| stick == 0).count();
+        assert!(list[..rounds].is_sorted(), "the first round is nearest first");
     }
 
     #[test]
     fn sticks_out_of_reach_are_still_listed() {
-        let lists = OrderedLists::new(4, &[stick(2, 3), stick(0, 1)]);
-        assert_eq!(lists.list(0), [1, 0]);
-        assert_eq!(OrderedLists::new(1, &[]).list(0), []);
+        let sticks = [stick(2, 3), stick(0, 1)];
+        let lists = OrderedLists::new(4, &sticks);
+        assert_eq!(*lists.list(0, 4, &sticks), [1, 0]);
+        assert!(lists.list(9, 4, &sticks).is_empty());
+        assert!(OrderedLists::new(1, &[]).list(0, 1, &[]).is_empty());
     }
 }

@@ -3,6 +3,7 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
+use crate::error::Error;
 use crate::settings::SquareRoot;
 
 /// Two particles of a body and the distance at which they are kept: |x_b − x_a| = d.
@@ -17,8 +18,22 @@ pub struct Stick {
 }
 
 impl Stick {
+    /// Whether its length is one that can be relaxed to.
+    pub(crate) fn is_sound(&self) -> bool {
+        (self.rest_length * self.rest_length).is_normal() && self.rest_length > 0.0
+    }
+
+    /// Refuses sticks whose squared length is no normal number.
+    pub(crate) fn check_all(sticks: &[Self], field: &str) -> Result<(), Error> {
+        if sticks.iter().all(Self::is_sound) {
+            return Ok(());
+        }
+        let problem = "gives an edge of a length outside 1e-18 to 1e18 m".into();
+        Err(Error::Invalid { field: field.into(), problem })
+    }
+
     /// A stick between two of `positions` that is at rest there.
-    pub fn at_rest(a: u32, b: u32, positions: &[Vec3]) -> Self {
+    pub(crate) fn at_rest(a: u32, b: u32, positions: &[Vec3]) -> Self {
         Self { a, b, rest_length: positions[a as usize].distance(positions[b as usize]) }
     }
 }

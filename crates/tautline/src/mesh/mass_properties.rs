@@ -26,7 +26,7 @@ pub struct MassProperties {
     /// Columns: unit vectors of a right-handed frame in which both matrices are diagonal. Not sorted: if the mesh's
     /// axes are principal they are returned as they are.
     pub principal_axes: DMat3,
-    /// Diagonal of the second moments in the principal frame, in kg m²: the C of the four-particle body. All above 0.
+    /// Diagonal of the second moments in the principal frame, in kg m². All above 0.
     pub principal_second_moments: DVec3,
     /// Diagonal of the inertia in the principal frame, in kg m².
     pub principal_moments: DVec3,

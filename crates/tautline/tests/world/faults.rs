@@ -58,8 +58,32 @@ fn extreme_but_allowed_numbers_leave_the_world_finite() {
     }
 }
 
-/// Depth turns into velocity in one substep (a projection of Verlet's position), so that bodies which start
-/// inside each other fly apart at up to depth/h each time they are separated, but not ever faster.
+/// Verlet reads a projection as velocity: 0.4 m in a substep of 1/480 s would be 192 m/s. What overlaps from the start
+/// is moved apart at `separation_speed` instead.
+#[test]
+fn a_body_put_into_another_or_into_the_floor_leaves_at_the_separation_speed() {
+    let settings = weightless();
+    let limit = settings.separation_speed.unwrap();
+    let shape = icosahedron(0.5);
+    let mut pair = World::new(settings.clone()).unwrap();
+    let a = pair.add(TrussBody::new(&shape)).unwrap();
+    let b = pair.add(TrussBody::new(&shape).position(Vec3::X * 0.4)).unwrap();
+    let mut sunk = World::new(settings).unwrap();
+    sunk.add(HalfSpace::floor(0.0)).unwrap();
+    let c = sunk.add(TrussBody::new(&shape).position(Vec3::Y * -3.0)).unwrap();
+    for step in 0..180 {
+        pair.step(DT).unwrap();
+        sunk.step(DT).unwrap();
+        let apart = pair.body(b).unwrap().velocity() - pair.body(a).unwrap().velocity();
+        assert!(apart.length() < 1.5 * limit, "step {step}: {apart}");
+        let up = sunk.body(c).unwrap().velocity();
+        assert!(up.length() < 1.5 * limit, "step {step}: {up}");
+    }
+    assert_eq!(pair.penetration().count, 0);
+    assert!(sunk.body(c).unwrap().center_of_mass().y > 0.0);
+}
+
+/// Each of a hundred is pushed by all others, each at no more than 3 m/s a contact.
 #[test]
 fn a_hundred_bodies_at_one_point_fly_apart_and_stay_whole() {
     let mut world = World::new(weightless()).unwrap();
@@ -72,8 +96,7 @@ fn a_hundred_bodies_at_one_point_fly_apart_and_stay_whole() {
     }
     let fastest = world.bodies().map(|b| world.body(b).unwrap().velocity().length()).fold(0.0, f32::max);
     println!("fastest {fastest} m/s, strain {:?}, {:?}", world.strain(), world.penetration());
-    let h = DT / 8.0;
-    assert!(fastest > 0.0 && fastest < 10.0 * 0.6 / h, "{fastest} m/s");
+    assert!(fastest > 0.0 && fastest < 50.0, "{fastest} m/s");
     assert!(all_finite(&world));
 }
 

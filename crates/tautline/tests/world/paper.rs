@@ -207,7 +207,7 @@ fn a_body_that_collided_is_relaxed_by_the_list_of_the_particle_moved_furthest() 
     let moved = |i: &usize| separated[*i].distance(before[*i]);
     let furthest = (0..before.len()).max_by(|a, b| moved(a).total_cmp(&moved(b))).unwrap();
     let shape = icosahedron(0.5);
-    let by_list: Vec<usize> = shape.ordered_lists().list(furthest).iter().map(|&i| i as usize).collect();
+    let by_list: Vec<usize> = shape.ordered_list(furthest).iter().map(|&i| i as usize).collect();
     let as_built: Vec<usize> = (0..shape.sticks().len()).collect();
     for (ordering, order) in [(Ordering::ByDistance, by_list), (Ordering::AsBuilt, as_built)] {
         let (_, after, counts) = collide(paper(Relaxation { ordering, ..relaxation }));

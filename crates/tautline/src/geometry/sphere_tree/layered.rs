@@ -19,7 +19,7 @@ pub struct LayeredTree {
 
 impl LayeredTree {
     /// Builds the tree in the rest pose `positions` and fits it to them. `thickness` (m) is added to the radius of every
-    /// leaf: the radius of a rope, half the thickness of a cloth, or 0.
+    /// leaf: the radius of a rope, or 0.
     ///
     /// # Errors
     /// As [`Topology::build`], and [`Error::OutOfRange`] if `thickness` is negative or not finite.

@@ -66,13 +66,9 @@ impl Task<'_> {
         let first = self.body.particles.start;
         self.counts = match &mut self.body.shape {
             Shape::Truss { truss } => {
-                let lists = truss.ordered_lists();
-                let order = match self.moved {
-                    Some(moved) if settings.ordering == Ordering::ByDistance => {
-                        Order::Listed(lists.list(moved.particle - first))
-                    }
-                    _ => Order::AsBuilt,
-                };
+                let moved = self.moved.filter(|_| settings.ordering == Ordering::ByDistance);
+                let list = moved.map(|moved| truss.ordered_list(moved.particle - first));
+                let order = list.as_deref().map_or(Order::AsBuilt, Order::Listed);
                 relax_sticks(&mut self.particles, truss.sticks(), order, settings)
             }
             Shape::Deformable(deformable) => relax_deformable(&mut self.particles, deformable, settings, h),

@@ -20,10 +20,11 @@ pub(crate) struct Moved {
 /// p_A and p_B are moved onto q = p_A + m_B/(m_A + m_B) (p_B − p_A), the mended Eq 10, each by moving the
 /// particles of its feature by wᵢλᵢ/Σwⱼλⱼ² times that (Eq 8 and 9 for any feature and any masses). m_A is the mass
 /// that the feature presents at p_A, 1/Σwⱼλⱼ², not the body's: a vertex against a face of equal bodies would
-/// otherwise move the face's three particles as far as the vertex, and create momentum.
+/// otherwise move the face's three particles as far as the vertex, and create momentum. The same split serves for
+/// a deformable body on a rigid one, where the paper moves the leaf the whole way and the feature half of it.
 ///
 /// Verlet reads a projection as velocity. What has overlapped for longer than this substep, by a bad start or a body
-/// put into another, is therefore moved apart by no more than `limit` (m) beyond its approach.
+/// put into another, is therefore left moving apart by no more than `limit` (m) a substep.
 pub(crate) fn separate(
     contacts: &[Contact],
     bodies: &[Body],
@@ -38,7 +39,11 @@ pub(crate) fn separate(
             continue;
         }
         let motion = relative_motion(contact, particles);
-        let depth = depth.min(contact.normal.dot(motion).max(0.0) + limit);
+        // The motion counts with its sign: what is already moving apart at the limit is given no more speed.
+        let depth = depth.min(contact.normal.dot(motion) + limit);
+        if depth <= 0.0 {
+            continue;
+        }
         let mobility = |body: u32, patch: &Patch| match bodies[body as usize].is_awake() {
             true => patch.mobility(particles),
             false => 0.0,
