@@ -8,7 +8,7 @@ use tautline_scene::run::RunSummary;
 use crate::failure::Failure;
 use crate::output::print;
 use crate::progress::{no_bar, with_style};
-use crate::run::{describe, describe_file, perform};
+use crate::run::{describe, describe_file, perform, prepare};
 use crate::scene::find;
 
 const SCENES: [&str; 2] = ["icosahedra", "cloth-on-cube"];
@@ -26,6 +26,7 @@ From the source folder, write `cargo run --release --` for `tautline`.
 ";
 
 pub(crate) fn demo() -> Result<(), Failure> {
+    prepare(&SCENES.map(files).concat(), None)?;
     let bars = MultiProgress::new();
     let runs = std::thread::scope(|scope| {
         let threads = SCENES.map(|name| scope.spawn(|| run(name, &bars)));

@@ -1,10 +1,11 @@
 //! `tautline run`: a scene to pictures, animations and statistics.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use indicatif::ProgressBar;
 use tautline_scene::document::Scene;
-use tautline_scene::export::{self, FORMATS, Options};
+use tautline_scene::export::{self, Format, Options, check_writable};
 use tautline_scene::render;
 use tautline_scene::run::{Outcome, Run as SceneRun, RunOptions, RunSummary};
 
@@ -15,8 +16,8 @@ use crate::progress::{bar, begin, no_bar, tell};
 use crate::scene::{find, use_solver};
 
 pub(crate) fn run(arguments: &Run) -> Result<(), Failure> {
-    check_formats(&arguments.out)?;
     let mut scene = find(&arguments.scene, &arguments.set)?;
+    prepare(&arguments.out, &arguments.stats)?;
     if let Some(solver) = arguments.solver {
         use_solver(&mut scene, solver);
     }
@@ -25,7 +26,6 @@ pub(crate) fn run(arguments: &Run) -> Result<(), Failure> {
     bar.finish_and_clear();
     let statistics = json(&summary)?;
     if let Some(path) = &arguments.stats {
-        make_folder_of(path)?;
         write_text(path, &statistics)?;
     }
     if arguments.json {
@@ -35,7 +35,7 @@ pub(crate) fn run(arguments: &Run) -> Result<(), Failure> {
     print(&(describe(&summary) + &files.map(|path| describe_file(path)).collect::<String>()))
 }
 
-/// Runs a scene and writes what it looked like to each of `files`.
+/// Runs a scene and writes what it looked like to each of `files`, which have been prepared.
 pub(crate) fn perform(
     scene: &Scene,
     seconds: Option<f32>,
@@ -54,7 +54,6 @@ pub(crate) fn perform(
 
 fn export(outcome: &Outcome, path: &Path, bar: &ProgressBar) -> Result<(), Failure> {
     let Some(recording) = &outcome.recording else { return Ok(()) };
-    make_folder_of(path)?;
     let camera = outcome.camera;
     let options =
         Options { picture: render::Settings { camera, ..render::Settings::default() }, ..Options::default() };
@@ -62,18 +61,28 @@ fn export(outcome: &Outcome, path: &Path, bar: &ProgressBar) -> Result<(), Failu
     Ok(export::write(recording, path, &options, &mut progress)?)
 }
 
-/// Refuses a name that cannot be written before anything is run for it.
-fn check_formats(files: &[PathBuf]) -> Result<(), Failure> {
-    let is_known = |path: &&PathBuf| {
-        let name = path.to_string_lossy().to_ascii_lowercase();
-        FORMATS.split(", ").any(|extension| name.ends_with(extension))
-    };
-    match files.iter().find(|path| !is_known(path)) {
-        None => Ok(()),
-        Some(path) => {
-            Err(tautline_scene::Error::UnsupportedFormat { path: path.clone(), supported: FORMATS }.into())
+/// Refuses, before anything is run for them, files that could not be written, and makes their folders.
+pub(crate) fn prepare<'a>(
+    pictures: &'a [PathBuf],
+    others: impl IntoIterator<Item = &'a PathBuf>,
+) -> Result<(), Failure> {
+    for path in pictures {
+        Format::of(path)?;
+    }
+    let mut seen = BTreeSet::new();
+    for path in pictures.iter().chain(others) {
+        if !seen.insert(path) {
+            return Err(Failure::Usage(format!(
+                "{}: named twice; each file is written once",
+                path.display()
+            )));
         }
     }
+    for path in seen {
+        make_folder_of(path)?;
+        check_writable(path)?;
+    }
+    Ok(())
 }
 
 /// Does something in a pool of so many threads, or in the one that there is.

@@ -123,6 +123,27 @@ const SCENE: &str = r#"{ "tautline": 1, "name": "mine", "seconds": 0.1,
     "bodies": [{ "half_space": {} }, { "rigid": { "position": [0, 2, 0] } }] }"#;
 
 #[test]
+fn outputs_are_checked_before_the_run_and_none_is_written_when_one_cannot_be() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    std::fs::write(folder.join("file"), "").unwrap();
+    std::fs::create_dir(folder.join("folder.gif")).unwrap();
+    let run = |files: &[&str]| errors(folder, &[&["run", "tower", "--seconds", "0.1"], files].concat(), 2);
+    for files in [
+        ["--out", "good.png", "--out", "file/x.png"],
+        ["--out", "good.png", "--out", "folder.gif"],
+        ["--out", "good.png", "--stats", "file/x.json"],
+        ["--out", "good.png", "--out", "good.png"],
+        ["--out", "good.png", "--stats", "good.png"],
+        ["--out", "good.png", "--out", ".gif"],
+    ] {
+        assert_eq!(run(&files).len(), 1, "{files:?}");
+        assert!(!folder.join("good.png").exists(), "{files:?}");
+    }
+    assert_eq!(std::fs::read_dir(folder).unwrap().count(), 2, "nothing is left behind");
+}
+
+#[test]
 fn scene_files_are_run_and_checked() {
     let folder = tempdir().unwrap();
     fs::write(folder.path().join("mine.json"), SCENE).unwrap();

@@ -35,6 +35,18 @@ pub fn write_atomically(
     }
 }
 
+/// Whether [`write_atomically`] could write to `path` now, found out without leaving a trace.
+///
+/// # Errors
+/// [`Error::Io`] as [`write_atomically`].
+pub fn check_writable(path: &Path) -> Result<(), Error> {
+    let at_path = |source: io::Error| io_error(path, source);
+    match destination(path).map_err(at_path)? {
+        Destination::Stream => Ok(()),
+        Destination::File(target) => temporary_beside(&target).map(drop).map_err(at_path),
+    }
+}
+
 /// Where what is written to a path goes.
 enum Destination {
     /// A file, there already or not.
@@ -103,6 +115,8 @@ mod tests {
         let (target, link) = (folder.path().join("target"), folder.path().join("link"));
         fs::write(&target, "old").unwrap();
         symlink(&target, &link).unwrap();
+        check_writable(&link).unwrap();
+        assert_eq!(fs::read_to_string(&target).unwrap(), "old");
         write_text(&link, "new").unwrap();
         assert!(link.is_symlink());
         assert_eq!(fs::read_to_string(&target).unwrap(), "new");
@@ -129,6 +143,7 @@ mod tests {
         fs::set_permissions(&locked, permissions).unwrap();
         symlink(folder.path().join("nothing"), &dangling).unwrap();
         for path in [folder.path(), &locked, &dangling] {
+            assert!(check_writable(path).is_err(), "{}", path.display());
             assert!(matches!(write_text(path, "new"), Err(Error::Io { .. })), "{}", path.display());
         }
         assert_eq!(fs::read_to_string(&locked).unwrap(), "kept");

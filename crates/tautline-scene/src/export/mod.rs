@@ -12,13 +12,40 @@ use crate::Error;
 use crate::recording::Recording;
 use crate::render::{Renderer, Settings};
 
-pub use atomic::write_atomically;
+pub use atomic::{check_writable, write_atomically};
 pub use gif::write_gif;
 pub use glb::write_glb;
 pub use png::write_png;
 
 /// The extensions that [`write()`] knows.
 pub const FORMATS: &str = ".gif, .glb, .png";
+
+/// A format that recordings are written in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// Moving pictures.
+    Gif,
+    /// Animated glTF.
+    Glb,
+    /// One picture.
+    Png,
+}
+
+impl Format {
+    /// The format that the extension of a path names, in small or capital letters.
+    ///
+    /// # Errors
+    /// [`Error::UnsupportedFormat`] for another extension, or none.
+    pub fn of(path: &Path) -> Result<Self, Error> {
+        let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
+        match extension.as_str() {
+            "gif" => Ok(Self::Gif),
+            "glb" => Ok(Self::Glb),
+            "png" => Ok(Self::Png),
+            _ => Err(Error::UnsupportedFormat { path: path.to_owned(), supported: FORMATS }),
+        }
+    }
+}
 
 /// How a recording is written.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,11 +76,10 @@ pub fn write(
     options: &Options,
     progress: &mut dyn FnMut(usize, usize),
 ) -> Result<(), Error> {
-    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
-    match extension.as_str() {
-        "gif" => return write_gif(recording, path, options.picture, options.gif_frame_rate, progress),
-        "glb" => write_glb(recording, path)?,
-        "png" => {
+    match Format::of(path)? {
+        Format::Gif => return write_gif(recording, path, options.picture, options.gif_frame_rate, progress),
+        Format::Glb => write_glb(recording, path)?,
+        Format::Png => {
             let last = recording.frame_count() - 1;
             let frame = options.png_frame.unwrap_or(last);
             if frame > last {
@@ -62,7 +88,6 @@ pub fn write(
             }
             write_png(&Renderer::new(recording, options.picture)?.frame(frame), path)?;
         }
-        _ => return Err(Error::UnsupportedFormat { path: path.to_owned(), supported: FORMATS }),
     }
     progress(1, 1);
     Ok(())
