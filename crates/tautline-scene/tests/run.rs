@@ -190,6 +190,15 @@ fn impossible_times_and_endless_recordings_are_refused() {
 }
 
 #[test]
+fn a_recording_counts_the_corners_of_a_tube_and_not_the_particles_of_its_rope() {
+    // 2 101 particles over 6 001 frames are 13 million positions; as a tube of 8 sides, 101 million.
+    let rope =
+        "record_every: 1, bodies: [{rope: {path: {line: {from: [0, 1, 0], to: [9, 1, 0], segments: 2100}}}}]";
+    let error = Run::new(build(rope), RunOptions { seconds: Some(100.0), record: true }).unwrap_err();
+    assert!(matches!(&error, Error::Invalid(problems) if problems[0].path == "record_every"), "{error}");
+}
+
+#[test]
 fn the_camera_goes_along() {
     let outcome = run("camera: {eye: [1, 2, 3], target: [0, 1, 0], fov: 90}, bodies: [{rope: {}}]", 0.1);
     let camera = outcome.camera.unwrap();

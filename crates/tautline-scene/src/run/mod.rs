@@ -83,13 +83,13 @@ impl Run {
         let step_count = (steps as u64).max(1);
         let frames = step_count / u64::from(scene.record_every) + 1;
         let recorder = if options.record {
-            let positions = frames.saturating_mul(scene.world.positions().len() as u64);
+            let mut recorder = Recorder::new(&scene)?;
+            let positions = frames.saturating_mul(recorder.positions_per_frame());
             if positions > limits::RECORDED_POSITIONS {
                 let most = limits::RECORDED_POSITIONS;
                 let message = format!("{frames} frames have {positions} positions, more than {most}");
                 return Err(refusal("record_every", message));
             }
-            let mut recorder = Recorder::new(&scene)?;
             recorder.record(&scene.world)?;
             Some(recorder)
         } else {

@@ -38,6 +38,17 @@ impl Recorder {
         Ok(Self { recording, sources })
     }
 
+    /// How much a frame takes, in positions: all vertices of what deforms, of which a rope drawn as a tube has more
+    /// than particles, and about three for a pose.
+    pub(super) fn positions_per_frame(&self) -> u64 {
+        let of = |track: &Track| match track.motion {
+            Motion::Still => 0,
+            Motion::Rigid(_) => 3,
+            Motion::Deforming(_) => track.mesh.positions.len() as u64,
+        };
+        self.recording.tracks.iter().map(of).sum()
+    }
+
     /// Adds a frame.
     pub(super) fn record(&mut self, world: &World) -> Result<(), Error> {
         for (track, source) in self.recording.tracks.iter_mut().zip(&mut self.sources) {
