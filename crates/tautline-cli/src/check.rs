@@ -12,7 +12,7 @@ pub(crate) fn check(arguments: &Check) -> Result<(), Failure> {
     let file = arguments.file.display();
     let problems = match load(&arguments.file).and_then(|scene| scene.build()) {
         Ok(scene) => return report_sound(arguments, &scene),
-        Err(Error::Io { path, source }) => return Err(Failure::file(&path, &source)),
+        Err(error @ (Error::Io { .. } | Error::UnsupportedFormat { .. })) => return Err(error.into()),
         Err(error) => problems(error),
     };
     if arguments.json {

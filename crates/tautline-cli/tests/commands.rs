@@ -158,6 +158,16 @@ fn scene_files_are_run_and_checked() {
 }
 
 #[test]
+fn what_is_no_scene_file_by_its_name_is_a_usage_error() {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("a.yaml"), "").unwrap();
+    for file in ["a.yaml", "."] {
+        let errors = errors(folder.path(), &["check", file], 2);
+        assert!(errors[0].contains("the extension must be one of .json, .json5, .toml"), "{errors:?}");
+    }
+}
+
+#[test]
 fn every_problem_of_a_scene_is_named_with_its_path() {
     let folder = tempdir().unwrap();
     let bad = r#"{ "tautline": 1, "dt": -1,

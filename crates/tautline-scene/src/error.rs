@@ -59,7 +59,7 @@ pub enum Error {
         /// What would be right.
         expected: String,
     },
-    /// A file name whose extension names no format that can be written.
+    /// A file name whose extension names no format that can be read or written.
     #[error("{}: no known format; the extension must be one of {supported}", path.display())]
     UnsupportedFormat {
         /// The file asked for.

@@ -34,8 +34,8 @@ fn read_document(path: &Path) -> Result<Scene, Error> {
         let (file, field) = (Some(path.to_owned()), String::new());
         Error::Parse(Box::new(ParseError { file, field, line, column, message: message.to_owned() }))
     };
-    let format = Format::of_path(path)
-        .ok_or_else(|| refusal(1, 1, "not a scene file: its name must end in .json, .json5 or .toml"))?;
+    let unknown = || Error::UnsupportedFormat { path: path.to_owned(), supported: ".json, .json5, .toml" };
+    let format = Format::of_path(path).ok_or_else(unknown)?;
     let bytes = mesh_file::read_limited(path)?;
     let text = String::from_utf8(bytes).map_err(|_| refusal(1, 1, "it is not UTF-8 text"))?;
     // Some editors begin a text with a byte order mark.
