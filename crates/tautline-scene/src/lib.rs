@@ -16,6 +16,7 @@ mod error;
 pub mod export;
 mod load;
 pub mod mesh_file;
+pub mod random;
 pub mod recording;
 pub mod registry;
 pub mod render;

@@ -7,8 +7,8 @@ use crate::collision::{Aabb, Contact};
 use crate::particles::Particles;
 use crate::settings::Sleep;
 
-/// Wakes sleeping bodies that are touched by what has moved further than `reach` (m) in this substep. What gravity gave the touching body in
-/// this very substep does not count: a body at rest on a sleeping one has it all the time.
+/// Wakes sleeping bodies that are touched by what has moved further than `reach` (m) in this substep. What gravity
+/// gave the touching body in this very substep does not count: a body at rest on a sleeping one has it all the time.
 pub(crate) fn wake_touched(
     bodies: &mut [Body],
     particles: &Particles,

@@ -39,8 +39,8 @@ fn windowed_grid(columns: usize, rows: usize) -> TriMesh {
     mesh
 }
 
-/// Sheets, sheets with a window, hulls, spheres and tori, whole or with some triangles missing, in any order and with any first corner. What is left
-/// may well have bow-ties; those are for the builder to find.
+/// Sheets, sheets with a window, hulls, spheres and tori, whole or with some triangles missing, in any order and
+/// with any first corner. What is left may well have bow-ties; those are for the builder to find.
 fn surfaces() -> impl Strategy<Value = (usize, Vec<[u32; 3]>)> {
     let base = prop_oneof![
         (2_u32..8, 2_u32..8).prop_map(|(columns, rows)| primitives::grid(columns, rows, 1.0, 1.0).unwrap()),

@@ -148,6 +148,9 @@ where
     };
     let all: Vec<(f64, f64)> = panel.lines.iter().flat_map(places).collect();
     let x_last = all.iter().map(|p| p.0).fold(1.0, f64::max);
+    // From 0, unless that would leave half of the chart empty.
+    let x_least = all.iter().map(|p| p.0).fold(x_last, f64::min);
+    let x_first = if x_least > 0.4 * x_last { x_least - 0.04 * x_last } else { 0.0 };
     let y_last = all.iter().map(|p| p.1).fold(1.0, f64::max);
     let y_first = match panel.scale {
         Scale::Linear => 0.0,
@@ -157,7 +160,7 @@ where
         .margin(8 * scale)
         .x_label_area_size(38 * scale)
         .y_label_area_size(62 * scale)
-        .build_cartesian_2d(0.0..x_last * 1.04, y_first..y_last * 1.12)?;
+        .build_cartesian_2d(x_first..x_last * 1.04, y_first..y_last * 1.12)?;
     axes.configure_mesh()
         .bold_line_style(GRID.stroke_width(scale))
         .light_line_style(TRANSPARENT)

@@ -24,8 +24,8 @@ pub(super) fn report(results: &Results, study: &[Row], circumstances: Circumstan
     let version = env!("CARGO_PKG_VERSION");
     let mut text = format!(
         "# The paper's experiments\n\nMeasured by tautline {version} on a machine with {cores} cores ({system}, \
-         {processor}); {steps} steps a run, of 1/60 s for the icosahedra and 1/240 s for the cloths, with the paper's settings: one substep, at most 10 sweeps, a \
-         tolerance of 1 %.\n\n"
+         {processor}); {steps} steps a run, of 1/60 s for the icosahedra and 1/240 s for the cloths, with the \
+         paper's settings: one substep, at most 10 sweeps, a tolerance of 1 %.\n\n"
     );
     if quick {
         text += "**A quick run: few sizes, few steps. It shows that everything works; its \

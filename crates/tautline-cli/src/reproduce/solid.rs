@@ -2,6 +2,7 @@
 
 use tautline::mesh::{TriMesh, primitives};
 use tautline_scene::document::{MeshSource, Shape};
+use tautline_scene::random::Random;
 
 use crate::failure::Failure;
 
@@ -42,7 +43,7 @@ impl Solid {
             Self::Irregular(subdivisions) => dented(primitives::icosphere(radius, subdivisions)?),
         };
         let mesh = match shuffle {
-            Some(seed) => renumbered(&mesh, &mut Random(seed)),
+            Some(seed) => renumbered(&mesh, &mut Random::new(seed)),
             None => mesh,
         };
         let positions = mesh.positions.iter().map(|position| position.to_array()).collect();
@@ -52,7 +53,7 @@ impl Solid {
 
 /// Every vertex up to 8 % nearer to the middle.
 fn dented(mut mesh: TriMesh) -> TriMesh {
-    let mut random = Random(1);
+    let mut random = Random::new(1);
     for position in &mut mesh.positions {
         *position *= 1.0 - 0.01 * random.below(9) as f32;
     }
@@ -63,7 +64,7 @@ fn dented(mut mesh: TriMesh) -> TriMesh {
 fn renumbered(mesh: &TriMesh, random: &mut Random) -> TriMesh {
     let mut old_of_new: Vec<u32> = (0..mesh.positions.len() as u32).collect();
     for last in (1..old_of_new.len()).rev() {
-        old_of_new.swap(last, random.below(last as u64 + 1) as usize);
+        old_of_new.swap(last, random.below(last + 1));
     }
     let mut new_of_old = vec![0; old_of_new.len()];
     for (new, &old) in old_of_new.iter().enumerate() {
@@ -72,19 +73,6 @@ fn renumbered(mesh: &TriMesh, random: &mut Random) -> TriMesh {
     TriMesh {
         positions: old_of_new.iter().map(|&old| mesh.positions[old as usize]).collect(),
         triangles: mesh.triangles.iter().map(|t| t.map(|old| new_of_old[old as usize])).collect(),
-    }
-}
-
-/// SplitMix64 (Steele, Lea and Flood 2014).
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, count: u64) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (z ^ (z >> 31)) % count
     }
 }
 

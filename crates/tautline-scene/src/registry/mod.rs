@@ -3,7 +3,6 @@
 
 mod cloth;
 mod parameter;
-mod random;
 mod rigid;
 mod rope;
 mod together;

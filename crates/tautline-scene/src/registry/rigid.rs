@@ -2,9 +2,9 @@
 
 use tautline::Vec3;
 
-use super::random::Random;
 use super::{NamedScene, Parameter, Parameters};
 use crate::document::{Body, Camera, Color, HalfSpace, Rigid, Room, Rotation, Scene, Shape};
+use crate::random::Random;
 
 pub(super) const ICOSAHEDRA: NamedScene = NamedScene {
     name: "icosahedra",

@@ -2,12 +2,12 @@
 
 use tautline::Vec3;
 
-use super::random::Random;
 use super::{NamedScene, Parameter, Parameters};
 use crate::document::{
     Body, Camera, Cloth, HalfSpace, Pin, Rigid, Rope, Rotation, Scene, Settings, Shape, SheetPlace, Surface,
     Thread,
 };
+use crate::random::Random;
 
 pub(super) const HAMMOCK: NamedScene = NamedScene {
     name: "hammock",

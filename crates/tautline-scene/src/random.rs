@@ -3,10 +3,12 @@
 use tautline::{Quat, Vec3};
 
 /// SplitMix64 (Steele, Lea and Flood 2014).
-pub(super) struct Random(u64);
+#[derive(Debug, Clone)]
+pub struct Random(u64);
 
 impl Random {
-    pub(super) fn new(seed: u64) -> Self {
+    /// Its numbers all follow from `seed`.
+    pub fn new(seed: u64) -> Self {
         Self(seed)
     }
 
@@ -24,22 +26,22 @@ impl Random {
     }
 
     /// Uniform in [low, high).
-    pub(super) fn between(&mut self, low: f32, high: f32) -> f32 {
+    pub fn between(&mut self, low: f32, high: f32) -> f32 {
         low + (high - low) * self.unit()
     }
 
     /// One of 0 … count − 1. The first ones are the likelier by count/2⁶⁴: not at all.
-    pub(super) fn below(&mut self, count: usize) -> usize {
+    pub fn below(&mut self, count: usize) -> usize {
         (self.next() % count.max(1) as u64) as usize
     }
 
     /// Uniform in the cube of half side `reach`.
-    pub(super) fn in_cube(&mut self, reach: f32) -> Vec3 {
+    pub fn in_cube(&mut self, reach: f32) -> Vec3 {
         Vec3::from_array([(); 3].map(|()| self.between(-reach, reach)))
     }
 
     /// Of uniform direction, and uniform length up to `most`.
-    pub(super) fn vector(&mut self, most: f32) -> Vec3 {
+    pub fn vector(&mut self, most: f32) -> Vec3 {
         loop {
             let v = self.in_cube(1.0);
             let squared = v.length_squared();
@@ -50,7 +52,7 @@ impl Random {
     }
 
     /// A uniform rotation: a point of the unit ball in four dimensions, put on its sphere.
-    pub(super) fn rotation(&mut self) -> Quat {
+    pub fn rotation(&mut self) -> Quat {
         loop {
             let q = Quat::from_array([(); 4].map(|()| self.between(-1.0, 1.0)));
             if (1e-4..=1.0).contains(&q.length_squared()) {
@@ -60,7 +62,7 @@ impl Random {
     }
 
     /// `count` different ones of 0 … `of` − 1, ascending.
-    pub(super) fn choose(&mut self, count: usize, of: usize) -> Vec<usize> {
+    pub fn choose(&mut self, count: usize, of: usize) -> Vec<usize> {
         let mut all: Vec<usize> = (0..of).collect();
         for i in 0..count.min(of) {
             all.swap(i, i + self.below(of - i));
