@@ -99,7 +99,8 @@ pub(super) fn io_error(path: &Path, source: impl Into<io::Error>) -> Error {
     Error::Io { path: path.to_owned(), source: source.into() }
 }
 
-#[cfg(all(test, unix))]
+#[cfg(test)]
+#[cfg(unix)]
 mod tests {
     use std::os::unix::fs::{FileTypeExt, symlink};
 
