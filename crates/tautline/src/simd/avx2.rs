@@ -1,0 +1,148 @@
+//! Eight at once, on x86 processors that have AVX2: found out when the program runs.
+//!
+//! # Why this is sound
+//!
+//! All `unsafe` here is of one kind: calling AVX instructions, which is undefined where the processor lacks them.
+//! [`Avx2`] is private to this module and values of it are made only by its `Lanes` methods; those are reached
+//! only from [`run`], which is the one place that names the type, after [`is_available`]. Loads and stores are of
+//! a [`Row`], which is 32 bytes long.
+#![allow(unsafe_code)]
+
+use std::arch::x86_64::*;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::{Kernel, LANES, Lanes, Row};
+
+#[derive(Clone, Copy)]
+struct Avx2(__m256);
+
+pub(super) fn is_available() -> bool {
+    std::arch::is_x86_feature_detected!("avx2")
+}
+
+/// Does the work with AVX2, or, should the processor not have it, as all others do.
+pub(super) fn run<K: Kernel>(kernel: K) -> K::Output {
+    if !is_available() {
+        return kernel.run::<super::portable::Portable>();
+    }
+    // SAFETY: the processor has AVX2.
+    unsafe { run_with_avx2(kernel) }
+}
+
+#[target_feature(enable = "avx2")]
+fn run_with_avx2<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run::<Avx2>()
+}
+
+macro_rules! operator {
+    ($($trait:ident $method:ident $intrinsic:ident),*) => {$(
+        impl $trait for Avx2 {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                // SAFETY: see the module's documentation.
+                Self(unsafe { $intrinsic(self.0, other.0) })
+            }
+        }
+    )*};
+}
+operator!(Add add _mm256_add_ps, Sub sub _mm256_sub_ps, Mul mul _mm256_mul_ps, Div div _mm256_div_ps);
+
+impl Neg for Avx2 {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        // SAFETY: see the module's documentation.
+        Self(unsafe { _mm256_xor_ps(self.0, _mm256_set1_ps(-0.0)) })
+    }
+}
+
+// SAFETY, of every block below: see the module's documentation.
+impl Lanes for Avx2 {
+    #[inline(always)]
+    fn splat(value: f32) -> Self {
+        Self(unsafe { _mm256_set1_ps(value) })
+    }
+    #[inline(always)]
+    fn load(row: &Row) -> Self {
+        Self(unsafe { _mm256_load_ps(row.0.as_ptr()) })
+    }
+    #[inline(always)]
+    fn store(self, row: &mut Row) {
+        unsafe { _mm256_store_ps(row.0.as_mut_ptr(), self.0) }
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(unsafe { _mm256_sqrt_ps(self.0) })
+    }
+    #[inline(always)]
+    fn greater(self, other: Self) -> Self {
+        Self(unsafe { _mm256_cmp_ps::<_CMP_GT_OQ>(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn equal(self, other: Self) -> Self {
+        Self(unsafe { _mm256_cmp_ps::<_CMP_EQ_OQ>(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn select(self, a: Self, b: Self) -> Self {
+        Self(unsafe { _mm256_blendv_ps(b.0, a.0, self.0) })
+    }
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        Self(unsafe { _mm256_and_ps(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        (unsafe { _mm256_movemask_ps(self.0) }) as u32
+    }
+    #[inline(always)]
+    fn transpose(rows: [Self; LANES]) -> [Self; LANES] {
+        // Swap the off-diagonal 4 × 4 quarters, then transpose each.
+        let [a, b, c, d, e, f, g, h] = rows;
+        let low = |x: Self, y: Self| unsafe { _mm256_permute2f128_ps::<0x20>(x.0, y.0) };
+        let high = |x: Self, y: Self| unsafe { _mm256_permute2f128_ps::<0x31>(x.0, y.0) };
+        let left = transpose_quarters([low(a, e), low(b, f), low(c, g), low(d, h)]);
+        let right = transpose_quarters([high(a, e), high(b, f), high(c, g), high(d, h)]);
+        let [a, b, c, d] = left;
+        let [e, f, g, h] = right;
+        [a, b, c, d, e, f, g, h].map(Self)
+    }
+    // `maxps` does exactly what the trait asks for: of equal numbers the second.
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(unsafe { _mm256_max_ps(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(unsafe { _mm256_min_ps(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn gather(rows: &[Row], index: &[u32; LANES]) -> [Self; LANES] {
+        // Halves of two rows side by side, which saves half the shuffles of a whole transposition.
+        let [a, b, c, d, e, f, g, h] = index.map(|i| &rows[i as usize].0);
+        let pair = |x: &[f32; LANES], y: &[f32; LANES], at: usize| unsafe {
+            let low = _mm256_castps128_ps256(_mm_load_ps(x[at..at + 4].as_ptr()));
+            _mm256_insertf128_ps::<1>(low, _mm_load_ps(y[at..at + 4].as_ptr()))
+        };
+        let half =
+            |at: usize| transpose_quarters([pair(a, e, at), pair(b, f, at), pair(c, g, at), pair(d, h, at)]);
+        let ([p, q, r, s], [t, u, v, w]) = (half(0), half(4));
+        [p, q, r, s, t, u, v, w].map(Self)
+    }
+}
+
+/// Transposes the lower and the upper 4 × 4 numbers, each by themselves.
+#[inline(always)]
+fn transpose_quarters([a, b, c, d]: [__m256; 4]) -> [__m256; 4] {
+    // SAFETY: see the module's documentation.
+    unsafe {
+        let (ab_low, ab_high) = (_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
+        let (cd_low, cd_high) = (_mm256_unpacklo_ps(c, d), _mm256_unpackhi_ps(c, d));
+        [
+            _mm256_shuffle_ps::<0x44>(ab_low, cd_low),
+            _mm256_shuffle_ps::<0xEE>(ab_low, cd_low),
+            _mm256_shuffle_ps::<0x44>(ab_high, cd_high),
+            _mm256_shuffle_ps::<0xEE>(ab_high, cd_high),
+        ]
+    }
+}

@@ -1,0 +1,170 @@
+//! Eight numbers at a time.
+//!
+//! A kernel is written once, over [`Lanes`], and compiled for each instruction set that implements it; [`run`]
+//! picks one when the program runs. All of them round every operation alike (no fused multiply-add, no
+//! approximate reciprocal), so that results are the same bits whichever runs.
+
+#[cfg(target_arch = "x86_64")]
+mod avx2;
+mod portable;
+mod scalar;
+mod vector;
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use serde::{Deserialize, Serialize};
+
+pub(crate) use vector::{Matrix3x8, Vec3x8};
+
+/// How many numbers a group has.
+pub(crate) const LANES: usize = 8;
+
+/// Eight numbers in memory.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[repr(C, align(32))]
+pub(crate) struct Row(pub(crate) [f32; LANES]);
+
+impl Row {
+    pub(crate) const ZERO: Self = Self([0.0; LANES]);
+}
+
+/// Which instructions kernels use. The results are the same bits.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Instructions {
+    /// The widest that this processor has.
+    #[default]
+    Widest,
+    /// Those that every processor of its kind has: SSE2, NEON or WASM's SIMD128.
+    Baseline,
+    /// One number at a time.
+    Scalar,
+}
+
+/// Eight numbers in registers, or eight masks: all bits set, or none.
+pub(crate) trait Lanes:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+{
+    fn splat(value: f32) -> Self;
+    fn load(row: &Row) -> Self;
+    fn store(self, row: &mut Row);
+    fn sqrt(self) -> Self;
+    /// A mask of the lanes in which `self` is greater.
+    fn greater(self, other: Self) -> Self;
+    /// A mask of the lanes in which both are the same number.
+    fn equal(self, other: Self) -> Self;
+    /// Where this mask is set `a`, elsewhere `b`.
+    fn select(self, a: Self, b: Self) -> Self;
+    /// The bits that both have: a mask and a number give the number or 0.
+    fn and(self, other: Self) -> Self;
+    /// One bit for each lane of this mask, lane 0 lowest.
+    fn bits(self) -> u32;
+    /// Row `i` of the result is column `i`.
+    fn transpose(rows: [Self; LANES]) -> [Self; LANES];
+
+    /// `self` where it is greater, else `other`.
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        self.greater(other).select(self, other)
+    }
+
+    /// `self` where it is less, else `other`.
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        other.greater(self).select(self, other)
+    }
+
+    /// The rows numbered `index`, as columns: lane `i` of the result's entry `k` is number `k` of row `index[i]`.
+    #[inline(always)]
+    fn gather(rows: &[Row], index: &[u32; LANES]) -> [Self; LANES] {
+        Self::transpose(index.map(|i| Self::load(&rows[i as usize])))
+    }
+
+    /// The reverse of [`Lanes::gather`]. Of equal indices the last lane's row stays.
+    #[inline(always)]
+    fn scatter(columns: [Self; LANES], rows: &mut [Row], index: &[u32; LANES]) {
+        for (row, &i) in Self::transpose(columns).into_iter().zip(index) {
+            row.store(&mut rows[i as usize]);
+        }
+    }
+
+    /// The largest of the eight.
+    #[inline(always)]
+    fn largest(self) -> f32 {
+        let mut row = Row::ZERO;
+        self.store(&mut row);
+        let [a, b, c, d, e, f, g, h] = row.0;
+        let max = |a: f32, b: f32| if a > b { a } else { b };
+        max(max(max(a, e), max(b, f)), max(max(c, g), max(d, h)))
+    }
+}
+
+/// Work to be done with some instruction set.
+pub(crate) trait Kernel {
+    type Output;
+    /// Has to be `#[inline(always)]`, as all that it calls in its hot loops: else it is compiled without the
+    /// instructions it was dispatched to.
+    fn run<L: Lanes>(self) -> Self::Output;
+}
+
+/// Does the work with these instructions.
+pub(crate) fn run<K: Kernel>(instructions: Instructions, kernel: K) -> K::Output {
+    match instructions {
+        #[cfg(target_arch = "x86_64")]
+        Instructions::Widest if avx2::is_available() => avx2::run(kernel),
+        Instructions::Widest | Instructions::Baseline => kernel.run::<portable::Portable>(),
+        Instructions::Scalar => kernel.run::<scalar::Scalar>(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every operation on numbers that do not round away.
+    struct Everything([Row; LANES]);
+
+    impl Kernel for Everything {
+        type Output = Vec<[u32; LANES]>;
+
+        #[inline(always)]
+        fn run<L: Lanes>(self) -> Self::Output {
+            let rows = self.0;
+            let (a, b) = (L::load(&rows[0]), L::load(&rows[1]));
+            let mut out = vec![a + b, a - b, a * b, a / b, -a, (a * a).sqrt(), a.max(b), a.min(b)];
+            out.extend([a.greater(b).and(b), a.equal(b).select(a, b), L::splat(a.largest())]);
+            out.push(L::splat(a.greater(b).bits() as f32));
+            let index = [3, 1, 4, 0, 5, 2, 7, 6];
+            let columns = L::gather(&rows, &index);
+            out.extend(columns);
+            let mut scattered = [Row::ZERO; LANES];
+            L::scatter(columns, &mut scattered, &index);
+            out.extend(scattered.iter().map(L::load));
+            let bits = |lanes: L| {
+                let mut row = Row::ZERO;
+                lanes.store(&mut row);
+                row.0.map(f32::to_bits)
+            };
+            out.into_iter().map(bits).collect()
+        }
+    }
+
+    #[test]
+    fn all_instruction_sets_give_the_same_bits() {
+        let number = |k: usize| ((k * 7919 % 1013) as f32 - 500.0) / 37.0;
+        let mut rows: [Row; LANES] =
+            std::array::from_fn(|i| Row(std::array::from_fn(|j| number(i * LANES + j))));
+        rows[1].0[3] = rows[0].0[3];
+        rows[0].0[5] = 0.0;
+        rows[1].0[5] = -0.0;
+        let expected = run(Instructions::Scalar, Everything(rows));
+        assert_eq!(run(Instructions::Baseline, Everything(rows)), expected);
+        assert_eq!(run(Instructions::Widest, Everything(rows)), expected);
+        assert_eq!(expected[0], std::array::from_fn(|i| (rows[0].0[i] + rows[1].0[i]).to_bits()));
+        assert_eq!(expected[6][5], (-0.0_f32).to_bits(), "of equal numbers max takes the second");
+        let gathered = |k: usize, lane: usize| rows[[3, 1, 4, 0, 5, 2, 7, 6][lane]].0[k].to_bits();
+        for k in 0..LANES {
+            assert_eq!(expected[12 + k], std::array::from_fn(|lane| gathered(k, lane)));
+            assert_eq!(expected[20 + k], rows[k].0.map(f32::to_bits));
+        }
+    }
+}
