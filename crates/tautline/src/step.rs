@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use crate::body::{Body, Shape};
+use crate::body::{Body, Substance};
 use crate::collision::{Aabb, Candidate, Scene, find_pairs};
 use crate::error::{Error, within};
 use crate::particles::VerletStep;
@@ -105,7 +105,7 @@ impl World {
         let scratch = &mut self.scratch;
         scratch.candidates.clear();
         for (index, body) in self.bodies.iter().enumerate() {
-            if matches!(body.shape, Shape::HalfSpace(_)) {
+            if matches!(body.substance, Substance::HalfSpace(_)) {
                 continue;
             }
             let bounds = Aabb::around(&self.particles.position[body.particles.clone()], body.reach());

@@ -2,7 +2,7 @@
 
 use glam::{Quat, Vec3};
 
-use crate::body::{Body, BodyKind, Shape, Truss};
+use crate::body::{Body, BodyKind, Substance, Truss};
 use crate::constraint::Stick;
 use crate::error::Error;
 use crate::particles::Particles;
@@ -50,35 +50,35 @@ impl<'a> BodyView<'a> {
 
     /// The triangles of its surface over its particles; empty for ropes and half-spaces.
     pub fn triangles(&self) -> &'a [[u32; 3]] {
-        match &self.body.shape {
-            Shape::Truss { truss } => truss.triangles(),
-            Shape::Deformable(deformable) => &deformable.triangles,
-            Shape::HalfSpace(_) => &[],
+        match &self.body.substance {
+            Substance::Truss { truss } => truss.triangles(),
+            Substance::Deformable(deformable) => &deformable.triangles,
+            Substance::HalfSpace(_) => &[],
         }
     }
 
     /// Its sticks, over its particles.
     pub fn sticks(&self) -> &'a [Stick] {
-        match &self.body.shape {
-            Shape::Truss { truss } => truss.sticks(),
-            Shape::Deformable(deformable) => &deformable.sticks,
-            Shape::HalfSpace(_) => &[],
+        match &self.body.substance {
+            Substance::Truss { truss } => truss.sticks(),
+            Substance::Deformable(deformable) => &deformable.sticks,
+            Substance::HalfSpace(_) => &[],
         }
     }
 
     /// Its shape, if it is rigid.
     pub fn truss(&self) -> Option<&'a Truss> {
-        match &self.body.shape {
-            Shape::Truss { truss } => Some(truss),
-            Shape::Deformable(_) | Shape::HalfSpace(_) => None,
+        match &self.body.substance {
+            Substance::Truss { truss } => Some(truss),
+            Substance::Deformable(_) | Substance::HalfSpace(_) => None,
         }
     }
 
     /// Unit normal out of the solid and offset (m) along it, if it is a half-space.
     pub fn plane(&self) -> Option<(Vec3, f32)> {
-        match &self.body.shape {
-            Shape::HalfSpace(wall) => Some((wall.normal, wall.offset)),
-            Shape::Truss { .. } | Shape::Deformable(_) => None,
+        match &self.body.substance {
+            Substance::HalfSpace(wall) => Some((wall.normal, wall.offset)),
+            Substance::Truss { .. } | Substance::Deformable(_) => None,
         }
     }
 
@@ -105,7 +105,7 @@ impl<'a> BodyView<'a> {
 
     /// Coulomb's coefficient of friction.
     pub fn friction(&self) -> f32 {
-        self.body.friction
+        self.body.surface.friction
     }
 
     /// Whether it never moves.

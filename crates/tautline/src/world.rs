@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
-use crate::body::{Body, BodyDescription, BuiltDeformable, HalfSpace, Shape, TrussBody};
+use crate::body::{Body, BodyDescription, BuiltDeformable, HalfSpace, Substance, TrussBody};
 use crate::collision::{Candidate, Contact, NarrowPhase, PairCache};
 use crate::error::{Error, coordinates, positive, within};
 use crate::particles::Particles;
@@ -128,14 +128,14 @@ impl World {
                 self.particles.displacement[i] = body.velocity + body.angular_velocity.cross(arm);
             }
         }
-        let shape = Shape::Truss { truss: Arc::clone(&body.truss) };
-        Ok(self.push(Body::new(range, shape, body.friction, body.fixed)))
+        let shape = Substance::Truss { truss: Arc::clone(&body.truss) };
+        Ok(self.push(Body::new(range, shape, Surface::with_friction(body.friction), body.fixed)))
     }
 
     fn add_half_space(&mut self, wall: HalfSpace) -> Result<BodyHandle, Error> {
         let wall = wall.validated()?;
         let range = self.particles.len()..self.particles.len();
-        Ok(self.push(Body::new(range, Shape::HalfSpace(wall), wall.friction, true)))
+        Ok(self.push(Body::new(range, Substance::HalfSpace(wall), wall.surface, true)))
     }
 
     fn add_deformable(&mut self, built: BuiltDeformable) -> Result<BodyHandle, Error> {
@@ -147,7 +147,7 @@ impl World {
             self.particles.inverse_mass[particle] = 0.0;
             self.particles.displacement[particle] = Vec3::ZERO;
         }
-        Ok(self.push(Body::new(range, Shape::Deformable(Box::new(built.body)), built.friction, false)))
+        Ok(self.push(Body::new(range, Substance::Deformable(Box::new(built.body)), Surface::with_friction(built.friction), false)))
     }
 
     fn push(&mut self, body: Body) -> BodyHandle {

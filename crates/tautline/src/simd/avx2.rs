@@ -117,9 +117,9 @@ impl Lanes for Avx2 {
         Self(unsafe { _mm256_min_ps(self.0, other.0) })
     }
     #[inline(always)]
-    fn gather(rows: &[Row], index: &[u32; LANES]) -> [Self; LANES] {
+    fn gather(rows: [&Row; LANES]) -> [Self; LANES] {
         // Halves of two rows side by side, which saves half the shuffles of a whole transposition.
-        let [a, b, c, d, e, f, g, h] = index.map(|i| &rows[i as usize].0);
+        let [a, b, c, d, e, f, g, h] = rows.map(|row| &row.0);
         let pair = |x: &[f32; LANES], y: &[f32; LANES], at: usize| unsafe {
             let low = _mm256_castps128_ps256(_mm_load_ps(x[at..at + 4].as_ptr()));
             _mm256_insertf128_ps::<1>(low, _mm_load_ps(y[at..at + 4].as_ptr()))

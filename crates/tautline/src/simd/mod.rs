@@ -73,13 +73,13 @@ pub(crate) trait Lanes:
         other.greater(self).select(self, other)
     }
 
-    /// The rows numbered `index`, as columns: lane `i` of the result's entry `k` is number `k` of row `index[i]`.
+    /// Rows as columns: lane `i` of the result's entry `k` is number `k` of row `i`.
     #[inline(always)]
-    fn gather(rows: &[Row], index: &[u32; LANES]) -> [Self; LANES] {
-        Self::transpose(index.map(|i| Self::load(&rows[i as usize])))
+    fn gather(rows: [&Row; LANES]) -> [Self; LANES] {
+        Self::transpose(rows.map(Self::load))
     }
 
-    /// The reverse of [`Lanes::gather`]. Of equal indices the last lane's row stays.
+    /// The reverse: the rows numbered `index` out of columns. Of equal indices the last lane's row stays.
     #[inline(always)]
     fn scatter(columns: [Self; LANES], rows: &mut [Row], index: &[u32; LANES]) {
         for (row, &i) in Self::transpose(columns).into_iter().zip(index) {
@@ -96,6 +96,12 @@ pub(crate) trait Lanes:
         let max = |a: f32, b: f32| if a > b { a } else { b };
         max(max(max(a, e), max(b, f)), max(max(c, g), max(d, h)))
     }
+}
+
+/// The rows of a slice with these numbers.
+#[inline(always)]
+pub(crate) fn rows_at<'a>(rows: &'a [Row], index: &[u32; LANES]) -> [&'a Row; LANES] {
+    index.map(|i| &rows[i as usize])
 }
 
 /// Work to be done with some instruction set.
@@ -133,8 +139,8 @@ mod tests {
             let mut out = vec![a + b, a - b, a * b, a / b, -a, (a * a).sqrt(), a.max(b), a.min(b)];
             out.extend([a.greater(b).and(b), a.equal(b).select(a, b), L::splat(a.largest())]);
             out.push(L::splat(a.greater(b).bits() as f32));
-            let index = [3, 1, 4, 0, 5, 2, 7, 6];
-            let columns = L::gather(&rows, &index);
+            let index = [3_u32, 1, 4, 0, 5, 2, 7, 6];
+            let columns = L::gather(index.map(|i| &rows[i as usize]));
             out.extend(columns);
             let mut scattered = [Row::ZERO; LANES];
             L::scatter(columns, &mut scattered, &index);

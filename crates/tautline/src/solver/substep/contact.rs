@@ -1,0 +1,187 @@
+//! Contacts, solved eight pairs at a time.
+//!
+//! A point has the constraint s ≥ 0 on the distance s of its surfaces along the normal, and Coulomb's cone on the
+//! tangential impulse. With J v the approach over a substep (v in the scaled variables of `block`), the multiplier
+//! λ ≥ 0 and the effective mass m, one Gauss–Seidel visit is
+//!
+//! - still apart (s > 0): J v ≥ −s, so that what meets within the substep meets exactly;
+//! - in each other (s ≤ 0): λ ← λ + m_s m (β(−s) − J v) − i_s λ, a critically overdamped spring of frequency ω and ratio
+//!   ζ that does not depend on the mass: β = hω/(2ζ + hω), m_s = a/(1 + a), i_s = 1/(1 + a), a = hω(2ζ + hω)
+//!   (soft constraints; Catto 2011, and Box2D's solver since).
+//!
+//! The biased pass moves bodies apart; after they have been moved, the relaxing pass takes the velocity that the bias
+//! gave them out again. Friction is solved together with the normal from the same velocities, |λ_t| ≤ μ λ, and pulls
+//! the anchors of what sticks back to each other at a quarter of the rate.
+
+use crate::simd::{LANES, Lanes, Row, Vec3x8, rows_at};
+
+use super::batch::{Batch, HeaderRows, PointRows};
+
+/// How a substep corrects what is in each other.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Softness {
+    /// β: the share of the depth that a substep undoes.
+    bias: f32,
+    /// m_s.
+    mass_scale: f32,
+    /// i_s.
+    impulse_scale: f32,
+    /// The most a substep undoes, in m.
+    limit: f32,
+    /// The share of the anchors' drift that a substep undoes.
+    pub(super) drift_rate: f32,
+}
+
+/// ζ: far over critical, so that nothing rings.
+const DAMPING_RATIO: f32 = 10.0;
+/// Drift of the anchors is undone at this share of the rate of depth.
+const DRIFT_SHARE: f32 = 0.25;
+
+impl Softness {
+    /// For substeps of `h` (s) in which bodies are moved apart at no more than `speed` (m/s). The stiffness that
+    /// stays stable grows with the substeps: 60 Hz at 1/240 s, 90 at 1/480, 120 at 1/960.
+    pub(super) fn new(h: f32, speed: f32) -> Self {
+        let frequency = 30.0 * libm::log2f(1.0 / (60.0 * h)).max(0.5);
+        let angular = std::f32::consts::TAU * frequency;
+        let damping = 2.0 * DAMPING_RATIO + h * angular;
+        let a = h * angular * damping;
+        let bias = h * angular / damping;
+        Self {
+            bias,
+            mass_scale: a / (1.0 + a),
+            impulse_scale: 1.0 / (1.0 + a),
+            limit: speed * h,
+            drift_rate: bias * DRIFT_SHARE,
+        }
+    }
+}
+
+/// The two passes of a substep.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Pass {
+    /// Moves bodies apart.
+    Biased,
+    /// Only velocities: the constraint is J v ≥ 0.
+    Relaxing,
+}
+
+/// The velocities of eight bodies.
+#[derive(Clone, Copy)]
+struct Body<L> {
+    linear: Vec3x8<L>,
+    inverse_mass: L,
+    angular: Vec3x8<L>,
+    response: L,
+}
+
+impl<L: Lanes> Body<L> {
+    #[inline(always)]
+    fn gather(rows: &[Row], index: &[u32; LANES]) -> Self {
+        let [x, y, z, inverse_mass, p, q, r, response] = L::gather(rows_at(rows, index));
+        let (linear, angular) = (Vec3x8::new(x, y, z), Vec3x8::new(p, q, r));
+        Self { linear, inverse_mass, angular, response }
+    }
+
+    #[inline(always)]
+    fn scatter(self, rows: &mut [Row], index: &[u32; LANES]) {
+        let (v, w) = (self.linear, self.angular);
+        L::scatter([v.x, v.y, v.z, self.inverse_mass, w.x, w.y, w.z, self.response], rows, index);
+    }
+
+}
+
+/// Visits every batch once, in order.
+#[inline(always)]
+pub(super) fn pass<L: Lanes>(
+    pass: Pass,
+    softness: &Softness,
+    batches: &[Batch],
+    headers: &[HeaderRows],
+    points: &mut [PointRows],
+    velocities: &mut [Row],
+) {
+    for (batch, header) in batches.iter().zip(headers) {
+        let mut a = Body::<L>::gather(velocities, &batch.a);
+        let mut b = Body::<L>::gather(velocities, &batch.b);
+        let range = batch.first as usize..(batch.first + batch.points) as usize;
+        for point in &mut points[range] {
+            solve(pass, softness, header, point, &mut a, &mut b);
+        }
+        a.scatter(velocities, &batch.a);
+        b.scatter(velocities, &batch.b);
+    }
+}
+
+/// One point of eight pairs: normal and friction from the same velocities.
+#[inline(always)]
+fn solve<L: Lanes>(
+    pass: Pass,
+    softness: &Softness,
+    header: &HeaderRows,
+    rows: &mut PointRows,
+    a: &mut Body<L>,
+    b: &mut Body<L>,
+) {
+    let zero = L::splat(0.0);
+    let normal = Vec3x8::<L>::load(&header.normal);
+    let (normal_a, normal_b) = (Vec3x8::load(&rows.normal_a), Vec3x8::load(&rows.normal_b));
+    let relative = b.linear - a.linear;
+    let opening = normal.dot(relative) + (normal_b.dot(b.angular) - normal_a.dot(a.angular));
+    let impulse = L::load(&rows.normal_impulse);
+
+    let tangents = [0, 1].map(|axis| Vec3x8::<L>::load(&header.tangents[axis]));
+    let tangents_a = [0, 1].map(|axis| Vec3x8::<L>::load(&rows.tangents_a[axis]));
+    let tangents_b = [0, 1].map(|axis| Vec3x8::<L>::load(&rows.tangents_b[axis]));
+    let tangent_mass = L::load(&rows.tangent_mass);
+    let old = [0, 1].map(|axis| L::load(&rows.tangent_impulses[axis]));
+    let rate = L::splat(softness.drift_rate);
+    let wanted = [0, 1].map(|axis| {
+        let turning = tangents_b[axis].dot(b.angular) - tangents_a[axis].dot(a.angular);
+        let slide = tangents[axis].dot(relative) + turning;
+        let slide = match pass {
+            Pass::Biased => slide + L::load(&rows.drift[axis]) * rate,
+            Pass::Relaxing => slide,
+        };
+        old[axis] - slide * tangent_mass
+    });
+    let limit = L::load(&header.friction) * impulse;
+    let size = (wanted[0] * wanted[0] + wanted[1] * wanted[1]).max(L::splat(TINY)).sqrt();
+    let over = size.greater(limit);
+    let scale = over.select(limit / size, L::splat(1.0));
+    let friction = wanted.map(|wanted| wanted * scale);
+    over.and(L::splat(1.0)).store(&mut rows.slides);
+    friction[0].store(&mut rows.tangent_impulses[0]);
+    friction[1].store(&mut rows.tangent_impulses[1]);
+
+    let separation = L::load(&rows.separation);
+    let apart = separation.greater(zero);
+    let mass = L::load(&rows.normal_mass);
+    let new = match pass {
+        Pass::Biased => {
+            let correction = (separation * L::splat(-softness.bias)).min(L::splat(softness.limit));
+            let target = apart.select(-separation, correction);
+            let push = (target - opening) * apart.select(L::splat(1.0), L::splat(softness.mass_scale));
+            let keep = impulse - apart.select(zero, impulse * L::splat(softness.impulse_scale));
+            push * mass + keep
+        }
+        Pass::Relaxing => {
+            (separation + opening).store(&mut rows.separation);
+            (apart.and(-separation) - opening) * mass + impulse
+        }
+    };
+    let new = new.max(zero);
+    new.store(&mut rows.normal_impulse);
+
+    let change = new - impulse;
+    let changes = [friction[0] - old[0], friction[1] - old[1]];
+    let linear = normal * change + tangents[0] * changes[0] + tangents[1] * changes[1];
+    a.linear = a.linear - linear * a.inverse_mass;
+    b.linear = b.linear + linear * b.inverse_mass;
+    let turn_a = normal_a * change + tangents_a[0] * changes[0] + tangents_a[1] * changes[1];
+    let turn_b = normal_b * change + tangents_b[0] * changes[0] + tangents_b[1] * changes[1];
+    a.angular = a.angular - turn_a * a.response;
+    b.angular = b.angular + turn_b * b.response;
+}
+
+/// Squared multipliers below this are none.
+const TINY: f32 = 1e-30;
