@@ -15,7 +15,7 @@ use crate::simd::{LANES, Lanes, Matrix3x8, Row, Vec3x8};
 pub(super) type Rows3 = [Row; 3];
 
 /// What does not change from step to step.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Constants {
     /// sₖ, in m.
     pub(super) spread: Rows3,
@@ -30,10 +30,14 @@ pub(super) struct Constants {
     pub(super) response: Row,
     /// How far the shape reaches from the centre of mass, in m.
     pub(super) reach: Row,
+    /// How many times gravity acts on it.
+    pub(super) gravity_scale: Row,
+    /// Rates at which motion and rotation die out, in 1/s.
+    pub(super) damping: [Row; 2],
 }
 
 /// Where eight bodies are.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Block {
     pub(super) constants: Constants,
     /// Centres of mass, in m.
@@ -62,9 +66,14 @@ fn particle<L: Lanes>(rows: &ParticleRows, k: usize) -> Vec3x8<L> {
 }
 
 impl Block {
-    /// Finds where the bodies are, and how their displacements move them.
+    /// Finds where the bodies are, and how their displacements times `scale` move them.
     #[inline(always)]
-    pub(super) fn read<L: Lanes>(&mut self, positions: &ParticleRows, displacements: &ParticleRows) -> Motion<L> {
+    pub(super) fn read<L: Lanes>(
+        &mut self,
+        positions: &ParticleRows,
+        displacements: &ParticleRows,
+        scale: L,
+    ) -> Motion<L> {
         let quarter = L::splat(0.25);
         let x: [Vec3x8<L>; 4] = std::array::from_fn(|k| particle(positions, k));
         let d: [Vec3x8<L>; 4] = std::array::from_fn(|k| particle(displacements, k));
@@ -84,7 +93,13 @@ impl Block {
         center.store(&mut self.center);
         axes.store(&mut self.axes);
         axes.store(&mut self.start_axes);
-        Motion { linear, angular }
+        Motion { linear: linear * scale, angular: angular * scale }
+    }
+
+    /// From the principal frames to the world.
+    #[inline(always)]
+    pub(super) fn axes_now<L: Lanes>(&self) -> Matrix3x8<L> {
+        Matrix3x8::load(&self.axes)
     }
 
     /// The particles of the bodies where they are now, and their displacements in the last substep.

@@ -117,6 +117,16 @@ impl Lineup {
         self.places.resize(length, NOBODY);
     }
 
+    /// The runs of places that are solved side by side.
+    pub(super) fn stripes(&self) -> impl Iterator<Item = Range<usize>> {
+        self.stripes.iter().map(|stripe| stripe.places.start as usize..stripe.places.end as usize)
+    }
+
+    /// Up to where, in whole blocks, bodies can move.
+    pub(super) fn moving(&self) -> usize {
+        self.solved + (self.driven_count as usize).next_multiple_of(LANES)
+    }
+
     /// The place that stands for half-spaces.
     pub(super) fn ground(&self) -> u32 {
         self.places.len() as u32 - 1

@@ -7,16 +7,16 @@
 //! body's frame it reads 2 (s I u + u × I u) = I ω h, and is solved by iterating
 //! u ← (ω h/2 − I⁻¹ (u × I u)) / s, s = √(1 − u·u).
 
-use crate::simd::{LANES, Lanes, Matrix3x8, Vec3x8};
+use crate::simd::{LANES, Lanes, Matrix3x8, Row, Vec3x8};
 
 use super::block::{Block, Motion};
 
 /// How often u is improved; each gains a factor of about |ω h|.
 const ITERATIONS: usize = 3;
 
-/// Moves eight bodies by a substep and returns their rows after it.
+/// Moves eight bodies by a substep of `h` (s) and returns their rows after it, damped.
 #[inline(always)]
-pub(super) fn advance<L: Lanes>(block: &mut Block, columns: &[L; LANES]) -> [L; LANES] {
+pub(super) fn advance<L: Lanes>(block: &mut Block, columns: &[L; LANES], h: f32) -> [L; LANES] {
     let motion = block.motion(columns);
     let center = Vec3x8::load(&block.center) + motion.linear;
     center.store(&mut block.center);
@@ -32,7 +32,9 @@ pub(super) fn advance<L: Lanes>(block: &mut Block, columns: &[L; LANES]) -> [L; 
     let angular = Vec3x8::new(momentum.x / inertia.x, momentum.y / inertia.y, momentum.z / inertia.z);
 
     let in_start = Matrix3x8::<L>::load(&block.start_axes).apply_transposed(turned.apply(angular));
-    block.velocity_rows(Motion { linear: motion.linear, angular: in_start })
+    let kept = |rate: &Row| L::splat(1.0) / (L::splat(1.0) + L::load(rate) * L::splat(h));
+    let [linear, angular] = block.constants.damping.each_ref().map(kept);
+    block.velocity_rows(Motion { linear: motion.linear * linear, angular: in_start * angular })
 }
 
 /// The rotation, in the body's frame, of a body that turns by `angular` = ω h.
