@@ -102,7 +102,7 @@ impl World {
             .iter()
             .filter_map(|body| match &body.substance {
                 Substance::Truss { truss } => Some((body, &**truss)),
-                Substance::Deformable(_) | Substance::HalfSpace(_) => None,
+                Substance::Rigid(_) | Substance::Deformable(_) | Substance::HalfSpace(_) => None,
             })
             .collect();
         let hull = |(body, truss): (&Body, &Truss)| {

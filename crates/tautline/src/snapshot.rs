@@ -11,6 +11,7 @@ use crate::error::Error;
 use crate::particles::Particles;
 use crate::settings::Settings;
 use crate::slots::Slots;
+use crate::solver::substep::RigidSolver;
 use crate::world::{Scratch, World};
 
 const MAGIC: [u8; 8] = *b"tautline";
@@ -114,7 +115,8 @@ impl Stored {
             return Err(refuse("its particles or pairs disagree with its bodies"));
         }
         let Self { settings, particles, bodies, slots, pairs, time, .. } = self;
-        Ok(World { settings, particles, bodies, slots, pairs, time, scratch: Scratch::default() })
+        let rigid = RigidSolver::default();
+        Ok(World { settings, particles, bodies, slots, pairs, rigid, time, scratch: Scratch::default() })
     }
 }
 

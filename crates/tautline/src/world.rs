@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
-use crate::body::{Body, BodyDescription, BuiltDeformable, HalfSpace, Substance, TrussBody};
+use crate::body::{Body, BodyDescription, BuiltDeformable, HalfSpace, Motion, RigidBody, Substance, Surface, TrussBody};
 use crate::collision::{Candidate, Contact, NarrowPhase, PairCache};
 use crate::error::{Error, coordinates, positive, within};
 use crate::particles::Particles;
@@ -12,6 +12,7 @@ use crate::rest::wake_around;
 use crate::settings::Settings;
 use crate::slots::Slots;
 use crate::solver::paper::Moved;
+use crate::solver::substep::RigidSolver;
 
 pub use crate::slots::BodyHandle;
 
@@ -39,6 +40,7 @@ pub struct World {
     pub(crate) bodies: Vec<Body>,
     pub(crate) slots: Slots,
     pub(crate) pairs: PairCache,
+    pub(crate) rigid: RigidSolver,
     /// In s.
     pub(crate) time: f64,
     pub(crate) scratch: Scratch,
@@ -71,6 +73,7 @@ impl World {
             bodies: Vec::new(),
             slots: Slots::default(),
             pairs: PairCache::default(),
+            rigid: RigidSolver::default(),
             time: 0.0,
             scratch: Scratch::default(),
         })
@@ -104,6 +107,7 @@ impl World {
     /// What is wrong with the description, by field; the world is as before.
     pub fn add(&mut self, body: impl Into<BodyDescription>) -> Result<BodyHandle, Error> {
         match body.into() {
+            BodyDescription::Rigid(body) => self.add_rigid(&body),
             BodyDescription::Truss(body) => self.add_truss(body),
             BodyDescription::HalfSpace(wall) => self.add_half_space(wall),
             BodyDescription::Cloth(cloth) => {
@@ -115,6 +119,23 @@ impl World {
                 self.add_deformable(built)
             }
         }
+    }
+
+    fn add_rigid(&mut self, body: &RigidBody) -> Result<BodyHandle, Error> {
+        let rigid = body.build()?;
+        let frame = body.frame();
+        let positions = frame.particles(rigid.spread());
+        let is_dynamic = rigid.traits.motion == Motion::Dynamic;
+        let is_fixed = rigid.traits.motion == Motion::Fixed;
+        let range = self.particles.extend(&positions, rigid.mass / 4.0, !is_dynamic);
+        if !is_fixed {
+            for i in range.clone() {
+                let arm = self.particles.position[i] - frame.center;
+                self.particles.displacement[i] = body.velocity + body.angular_velocity.cross(arm);
+            }
+        }
+        self.rigid.invalidate();
+        Ok(self.push(Body::new(range, Substance::Rigid(Box::new(rigid)), body.surface, is_fixed)))
     }
 
     fn add_truss(&mut self, body: TrussBody) -> Result<BodyHandle, Error> {
@@ -168,6 +189,7 @@ impl World {
         self.bodies.remove(index);
         self.slots.remove(index);
         self.pairs.remove_body(index as u32);
+        self.rigid.remove_body(index);
         for body in &mut self.bodies[index..] {
             body.particles = body.particles.start - range.len()..body.particles.end - range.len();
         }
@@ -227,6 +249,7 @@ impl World {
         for i in range {
             self.particles.force[i] += force * (self.particles.mass[i] / total);
         }
+        self.particles.is_forced = true;
         self.wake_body(index);
         Ok(())
     }
@@ -239,6 +262,7 @@ impl World {
         coordinates("force", force)?;
         let (index, i) = self.particle(handle, particle)?;
         self.particles.force[i] += force;
+        self.particles.is_forced = true;
         self.wake_body(index);
         Ok(())
     }

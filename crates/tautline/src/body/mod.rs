@@ -25,7 +25,7 @@ pub use rope::Rope;
 pub use surface::{Combine, Surface};
 pub use truss::{Truss, TrussBody};
 
-pub(crate) use rigid::{Frame, Rigid, rigid_motion};
+pub(crate) use rigid::{CORNERS, Frame, Rigid, rigid_motion};
 pub(crate) use surface::Touch;
 pub(crate) use deformable::{BuiltDeformable, Deformable};
 
@@ -121,6 +121,24 @@ impl Body {
             Substance::Deformable(_) => BodyKind::Cloth,
             Substance::HalfSpace(_) => BodyKind::HalfSpace,
         }
+    }
+
+    /// Whether it is a rigid body of four particles, which the substep solver moves.
+    pub(crate) fn is_rigid(&self) -> bool {
+        matches!(self.substance, Substance::Rigid(_))
+    }
+
+    /// Holds it where it is for good.
+    pub(crate) fn freeze(&mut self) {
+        self.fixed = true;
+        if let Substance::Rigid(rigid) = &mut self.substance {
+            rigid.traits.motion = Motion::Fixed;
+        }
+    }
+
+    /// Whether it is awake and made of particles that move by themselves.
+    pub(crate) fn is_awake_matter(&self) -> bool {
+        self.is_awake() && !self.is_rigid()
     }
 
     /// Whether a step moves it.

@@ -1,7 +1,7 @@
 //! Which bodies touch, and where. Moves nothing.
 
 mod broad_phase;
-mod bvh;
+pub(crate) mod bvh;
 mod contact;
 mod narrow_phase;
 mod pair;

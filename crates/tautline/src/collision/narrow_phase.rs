@@ -253,7 +253,7 @@ fn half_space_contacts(scene: Scene<'_>, contacts: &mut Vec<Contact>) {
             _ => None,
         })
     };
-    for (index, body) in scene.bodies.iter().enumerate().filter(|(_, body)| body.is_awake()) {
+    for (index, body) in scene.bodies.iter().enumerate().filter(|(_, body)| body.is_awake_matter()) {
         let thickness = match &body.substance {
             Substance::Deformable(deformable) => deformable.thickness,
             _ => 0.0,

@@ -6,7 +6,9 @@ mod mass;
 mod part;
 mod polytope;
 
-use glam::{DVec3, Quat, Vec3};
+use std::sync::Arc;
+
+use glam::{DMat3, DVec3, Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
 use crate::mesh::TriMesh;
@@ -97,6 +99,19 @@ impl Shape {
     /// Of how many convex parts it is the union.
     pub fn part_count(&self) -> usize {
         self.parts.len()
+    }
+
+    /// Without parts: until a snapshot's bodies are given their shapes.
+    pub(crate) fn placeholder() -> Arc<Self> {
+        Arc::new(Self {
+            parts: Vec::new(),
+            volume: 0.0,
+            second_moments: DVec3::ZERO,
+            frame: Frame { center: DVec3::ZERO, axes: DMat3::IDENTITY },
+            reach: 0.0,
+            inner_radius: 0.0,
+            display: TriMesh::default(),
+        })
     }
 
     pub(crate) fn parts(&self) -> &[Part] {

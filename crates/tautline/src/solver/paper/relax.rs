@@ -72,7 +72,7 @@ impl Task<'_> {
                 relax_sticks(&mut self.particles, truss.sticks(), order, settings)
             }
             Substance::Deformable(deformable) => relax_deformable(&mut self.particles, deformable, settings, h),
-            Substance::HalfSpace(_) => Counts::default(),
+            Substance::Rigid(_) | Substance::HalfSpace(_) => Counts::default(),
         };
     }
 }

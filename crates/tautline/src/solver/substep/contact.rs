@@ -18,7 +18,7 @@ use crate::simd::{LANES, Lanes, Row, Vec3x8, rows_at};
 use super::batch::{Batch, HeaderRows, PointRows};
 
 /// How a substep corrects what is in each other.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Softness {
     /// β: the share of the depth that a substep undoes.
     bias: f32,

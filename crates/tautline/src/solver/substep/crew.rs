@@ -331,7 +331,7 @@ impl Kernel for Read<'_, '_> {
             let block = &mut self.squad.blocks[i];
             let motion = block.read::<L>(&inputs.positions, &inputs.displacements, L::load(&inputs.scale));
             let columns = block.velocity_rows(motion);
-            let kick = kick(self.timing, self.particles.is_forced, block, &inputs);
+            let kick: [L; LANES] = kick(self.timing, self.particles.is_forced, block, &inputs);
             let lag = L::load(&inputs.lag);
             let columns = std::array::from_fn(|k| columns[k] + kick[k] * lag);
             store(columns, &mut self.squad.velocities[range.clone()]);

@@ -132,6 +132,16 @@ impl Lineup {
         self.places.len() as u32 - 1
     }
 
+    /// A body is removed: its place is empty, and those behind it have moved down.
+    pub(super) fn forget(&mut self, body: u32, place: u32) {
+        if let Some(place) = self.places.get_mut(place as usize) {
+            *place = NOBODY;
+        }
+        for other in self.places.iter_mut().filter(|other| **other != NOBODY) {
+            *other -= u32::from(*other > body);
+        }
+    }
+
     /// The number of the stripe that a place is in, if it is solved for.
     fn stripe_of(&self, place: u32) -> Option<u32> {
         let after = self.stripes.partition_point(|stripe| stripe.places.start <= place) as u32;
@@ -247,6 +257,7 @@ mod tests {
             assert_eq!(lineup.places[place as usize], body);
             assert_eq!((place as usize) < lineup.solved, body < 3100);
         }
+        for stripe in &lineup.stripes {
             assert_eq!((stripe.places.start % 8, stripe.places.end % 8), (0, 0));
             assert_eq!(lineup.places[stripe.places.end as usize - 1], NOBODY);
         }

@@ -79,9 +79,9 @@ impl RigidSolver {
         self.is_stale = true;
     }
 
-    /// Whether there is anything to solve.
-    pub(crate) fn is_empty(&self) -> bool {
-        self.lineup.places.is_empty() && !self.is_stale
+    /// How many pairs of parts are near each other.
+    pub(crate) fn pair_count(&self) -> usize {
+        self.pairs.pairs.len()
     }
 
     /// Reads the bodies and finds out who may meet whom.
