@@ -93,6 +93,7 @@ pub use glam::{DVec3, Mat3, Quat, Vec3};
 pub use measure::{Penetration, Strain};
 pub use report::{Fault, PhaseSeconds, StepReport};
 pub use settings::{BroadPhase, Ordering, Relaxation, Settings, Sleep, SquareRoot};
+pub use shape::Shape;
 pub use simd::Instructions;
 pub use view::BodyView;
 pub use world::{BodyHandle, World};

@@ -121,7 +121,7 @@ fn middle(mesh: &TriMesh) -> DVec3 {
 }
 
 /// a bᵀ.
-fn outer(a: DVec3, b: DVec3) -> DMat3 {
+pub(crate) fn outer(a: DVec3, b: DVec3) -> DMat3 {
     DMat3::from_cols(a * b.x, a * b.y, a * b.z)
 }
 
@@ -133,7 +133,7 @@ fn inertia_from(second_moments: DMat3) -> DMat3 {
 
 /// Eigenvalues and eigenvectors (columns, right-handed) of a symmetric matrix by cyclic Jacobi rotations (Golub &
 /// Van Loan, Matrix Computations, 8.5). Angles stay within 45°, so axes keep their order as far as possible.
-fn diagonalize(mut matrix: DMat3) -> (DVec3, DMat3) {
+pub(crate) fn diagonalize(mut matrix: DMat3) -> (DVec3, DMat3) {
     const MAX_SWEEPS: usize = 32; // Convergence is quadratic: six are usual.
     let mut axes = DMat3::IDENTITY;
     for _ in 0..MAX_SWEEPS {

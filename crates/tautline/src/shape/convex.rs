@@ -11,6 +11,7 @@ use crate::simd::{LANES, Lanes, Row, Vec3x8};
 /// The points within `radius` of the convex hull of `vertices`. The frame is that of the body: its centre of mass
 /// and principal axes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(from = "Stored", into = "Stored")]
 pub(crate) struct Convex {
     /// Corners of the core, in m; at least one.
     pub(crate) vertices: Vec<Vec3>,
@@ -24,6 +25,27 @@ pub(crate) struct Convex {
     packed_vertices: Vec<[Row; 3]>,
     /// Normals of the faces, alike.
     packed_normals: Vec<[Row; 3]>,
+}
+
+/// What a core is stored as: the groups of eight follow from it.
+#[derive(Serialize, Deserialize)]
+struct Stored {
+    vertices: Vec<Vec3>,
+    faces: Vec<Face>,
+    loops: Vec<u16>,
+    radius: f32,
+}
+
+impl From<Convex> for Stored {
+    fn from(Convex { vertices, faces, loops, radius, .. }: Convex) -> Self {
+        Self { vertices, faces, loops, radius }
+    }
+}
+
+impl From<Stored> for Convex {
+    fn from(Stored { vertices, faces, loops, radius }: Stored) -> Self {
+        Self::new(vertices, faces, loops, radius)
+    }
 }
 
 /// A flat face of a core.
@@ -89,4 +111,55 @@ fn farthest<L: Lanes>(groups: &[[Row; 3]], direction: Vec3) -> (usize, f32) {
         }
     }
     (best, height)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::simd::{Instructions, Kernel, run};
+
+    struct Farthest<'a>(&'a Convex, Vec3);
+
+    impl Kernel for Farthest<'_> {
+        type Output = [(usize, f32); 2];
+
+        #[inline(always)]
+        fn run<L: Lanes>(self) -> Self::Output {
+            [self.0.support::<L>(self.1), self.0.facing::<L>(self.1)]
+        }
+    }
+
+    fn brute_force(points: impl Iterator<Item = Vec3>, direction: Vec3) -> (usize, f32) {
+        points.map(|p| p.x * direction.x + p.y * direction.y + p.z * direction.z).enumerate().fold(
+            (0, f32::NEG_INFINITY),
+            |best, (index, height)| if height > best.1 { (index, height) } else { best },
+        )
+    }
+
+    /// Few coordinates, so that ties are common.
+    fn vector() -> impl Strategy<Value = Vec3> {
+        let lattice = prop::array::uniform3(-2..=2).prop_map(|c: [i32; 3]| Vec3::from(c.map(|k| k as f32)));
+        prop_oneof![lattice, prop::array::uniform3(-1.0_f32..1.0).prop_map(Vec3::from)]
+    }
+
+    proptest! {
+        #[test]
+        fn the_farthest_is_that_of_brute_force(
+            points in prop::collection::vec(vector(), 1..40),
+            normals in prop::collection::vec(vector(), 0..20),
+            direction in vector(),
+        ) {
+            let face = |&normal: &Vec3| Face { normal, offset: 0.0, first: 0, count: 0 };
+            let convex = Convex::new(points, normals.iter().map(face).collect(), Vec::new(), 0.0);
+            let expected = [
+                brute_force(convex.vertices.iter().copied(), direction),
+                brute_force(normals.iter().copied(), direction),
+            ];
+            for instructions in [Instructions::Widest, Instructions::Baseline, Instructions::Scalar] {
+                prop_assert_eq!(run(instructions, Farthest(&convex, direction)), expected);
+            }
+        }
+    }
 }

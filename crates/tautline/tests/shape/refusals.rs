@@ -1,0 +1,77 @@
+//! What is no shape is refused by name.
+
+use tautline::{Error, Quat, Shape, Vec3};
+
+const NUMBERS: [f32; 7] = [0.0, -1.0, f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e30, 1e-30];
+
+fn field(result: Result<Shape, Error>) -> String {
+    match result {
+        Err(Error::OutOfRange { field, .. } | Error::Invalid { field, .. }) => field,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn sizes() {
+    for bad in NUMBERS {
+        assert_eq!(field(Shape::sphere(bad)), "radius");
+        assert_eq!(field(Shape::capsule(bad, 1.0)), "radius");
+        assert_eq!(field(Shape::capsule(1.0, bad)), "half_height");
+        assert_eq!(field(Shape::cylinder(bad, 1.0)), "radius");
+        assert_eq!(field(Shape::cylinder(1.0, bad)), "half_height");
+        assert_eq!(field(Shape::cuboid(Vec3::new(bad, 1.0, 1.0))), "half_extents.x");
+        assert_eq!(field(Shape::cuboid(Vec3::new(1.0, bad, 1.0))), "half_extents.y");
+        assert_eq!(field(Shape::cuboid(Vec3::new(1.0, 1.0, bad))), "half_extents.z");
+    }
+}
+
+#[test]
+fn too_thin() {
+    assert_eq!(field(Shape::cuboid(Vec3::new(1.0, 1e-6, 1.0))), "half_extents");
+    assert_eq!(field(Shape::capsule(1e-4, 100.0)), "half_height");
+    assert_eq!(field(Shape::cylinder(1.0, 1e-6)), "half_height");
+    assert!(Shape::cuboid(Vec3::new(1.0, 2e-5, 1.0)).is_ok());
+}
+
+#[test]
+fn points_without_volume() {
+    let corners = [Vec3::ZERO, Vec3::X, Vec3::Z, Vec3::Y, Vec3::X + Vec3::Z];
+    for count in 0..4 {
+        assert_eq!(field(Shape::convex_hull(&corners[..count])), "points", "{count} points");
+    }
+    let coplanar: Vec<Vec3> = (0..20).map(|k| Vec3::new((k % 5) as f32, (k / 5) as f32, 1.0)).collect();
+    let collinear: Vec<Vec3> = (0..20).map(|k| Vec3::new(1.0, 2.0, 3.0) * k as f32).collect();
+    let duplicates = vec![Vec3::ONE; 20];
+    let three_places: Vec<Vec3> = corners[..3].repeat(7);
+    for points in [coplanar, collinear, duplicates, three_places] {
+        assert_eq!(field(Shape::convex_hull(&points)), "points");
+    }
+    let sliver = [Vec3::ZERO, Vec3::X, Vec3::Z, Vec3::new(0.3, 1e-6, 0.3)];
+    assert_eq!(field(Shape::convex_hull(&sliver)), "points");
+    let speck = sliver.map(|p| p * 1e-12 + Vec3::ZERO);
+    assert_eq!(field(Shape::convex_hull(&speck)), "points");
+    assert!(Shape::convex_hull(&corners).is_ok());
+}
+
+#[test]
+fn coordinates() {
+    for bad in [f32::NAN, f32::INFINITY, -2e9] {
+        let mut points = [Vec3::ZERO, Vec3::X, Vec3::Z, Vec3::Y];
+        points[2].y = bad;
+        assert_eq!(field(Shape::convex_hull(&points)), "points[2].y");
+        let ball = Shape::sphere(1.0).unwrap();
+        let good = (&ball, Vec3::ZERO, Quat::IDENTITY);
+        let moved = (&ball, Vec3::new(0.0, 0.0, bad), Quat::IDENTITY);
+        assert_eq!(field(Shape::compound(&[good, moved])), "parts[1].translation.z");
+        let turned = (&ball, Vec3::ZERO, Quat::from_xyzw(bad, 0.0, 0.0, 1.0));
+        assert_eq!(field(Shape::compound(&[turned])), "parts[0].rotation");
+    }
+    assert_eq!(field(Shape::compound(&[])), "parts");
+}
+
+#[test]
+fn compounds_that_are_mostly_nothing() {
+    let dust = Shape::sphere(1e-3).unwrap();
+    let parts = [(&dust, Vec3::ZERO, Quat::IDENTITY), (&dust, Vec3::X * 1e6, Quat::IDENTITY)];
+    assert_eq!(field(Shape::compound(&parts)), "parts");
+}
