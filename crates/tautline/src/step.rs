@@ -37,10 +37,13 @@ impl World {
         let mut watch = Stopwatch::start(clock);
         let h = dt / self.settings.substeps as f32;
         self.begin_rigid(h, &mut report, &mut watch);
+        let has_matter = self.bodies.iter().any(Body::is_awake_matter);
         for index in 0..self.settings.substeps {
             self.rigid.substep(&self.settings, h, index == 0);
             watch.lap(Phase::Solve);
-            self.substep(h, &mut report, &mut watch);
+            if has_matter {
+                self.substep(h, &mut report, &mut watch);
+            }
         }
         self.finish_rigid(h, &mut report);
         watch.lap(Phase::Integrate);

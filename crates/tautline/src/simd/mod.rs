@@ -76,14 +76,17 @@ pub(crate) trait Lanes:
     /// Rows as columns: lane `i` of the result's entry `k` is number `k` of row `i`.
     #[inline(always)]
     fn gather(rows: [&Row; LANES]) -> [Self; LANES] {
-        Self::transpose(rows.map(Self::load))
+        let [a, b, c, d, e, f, g, h] = rows;
+        let (a, b, c, d) = (Self::load(a), Self::load(b), Self::load(c), Self::load(d));
+        Self::transpose([a, b, c, d, Self::load(e), Self::load(f), Self::load(g), Self::load(h)])
     }
 
     /// The reverse: the rows numbered `index` out of columns. Of equal indices the last lane's row stays.
     #[inline(always)]
     fn scatter(columns: [Self; LANES], rows: &mut [Row], index: &[u32; LANES]) {
-        for (row, &i) in Self::transpose(columns).into_iter().zip(index) {
-            row.store(&mut rows[i as usize]);
+        let lanes = Self::transpose(columns);
+        for i in 0..LANES {
+            lanes[i].store(&mut rows[index[i] as usize]);
         }
     }
 
@@ -101,14 +104,17 @@ pub(crate) trait Lanes:
 /// The rows of a slice with these numbers.
 #[inline(always)]
 pub(crate) fn rows_at<'a>(rows: &'a [Row], index: &[u32; LANES]) -> [&'a Row; LANES] {
-    index.map(|i| &rows[i as usize])
+    let [a, b, c, d, e, f, g, h] = *index;
+    let (a, b, c, d) = (&rows[a as usize], &rows[b as usize], &rows[c as usize], &rows[d as usize]);
+    [a, b, c, d, &rows[e as usize], &rows[f as usize], &rows[g as usize], &rows[h as usize]]
 }
 
 /// Work to be done with some instruction set.
 pub(crate) trait Kernel {
     type Output;
     /// Has to be `#[inline(always)]`, as all that it calls in its hot loops: else it is compiled without the
-    /// instructions it was dispatched to.
+    /// instructions it was dispatched to. A closure cannot be: hot loops have none that works on lanes, and no
+    /// `array::map`.
     fn run<L: Lanes>(self) -> Self::Output;
 }
 

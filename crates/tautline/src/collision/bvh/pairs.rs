@@ -180,7 +180,11 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_pairs_are_those_of_all_pairs(boxes in boxes(200), seed in any::<u32>(), still in 0..4_u32) {
+        fn the_pairs_are_those_of_all_pairs(
+            boxes in boxes(200),
+            seed in any::<u32>(),
+            still in 0..4_u32,
+        ) {
             let mut seed = seed;
             let movable: Vec<bool> = boxes.iter().map(|_| noise(&mut seed) * 2.0 + 2.0 >= still as f32).collect();
             for instructions in SETS {
@@ -191,7 +195,9 @@ mod tests {
         }
 
         #[test]
-        fn a_tree_that_is_kept_finds_the_same_pairs(scenes in prop::collection::vec(boxes(60), 1..6)) {
+        fn a_tree_that_is_kept_finds_the_same_pairs(
+            scenes in prop::collection::vec(boxes(60), 1..6),
+        ) {
             let (mut search, mut pairs) = (PairSearch::default(), Vec::new());
             let count = scenes.iter().map(Vec::len).min().unwrap_or(0);
             for scene in &scenes {

@@ -6,8 +6,8 @@ use super::{ALL, Bvh, Node, Place};
 use crate::collision::Aabb;
 use crate::simd::{Instructions, Kernel, Lanes, Row, Vec3x8, run};
 
-/// How much later a ray may leave a box by rounding than computed, as a factor: 1 + 2 γ₃ (Ize 2013, "Robust BVH ray
-/// traversal", 3.1).
+/// How much later a ray may leave a box than computed, by rounding, as a factor: 1 + 2 γ₃ (Ize 2013, "Robust BVH
+/// ray traversal", 3.1).
 const LEAVES_LATE: f32 = 1.0 + 6.0 * f32::EPSILON;
 
 impl Bvh {
@@ -205,7 +205,11 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_box_overlaps_what_it_overlaps_one_by_one(boxes in boxes(200), low in vector(-5.0..5.0), size in 0.0_f32..4.0) {
+        fn a_box_overlaps_what_it_overlaps_one_by_one(
+            boxes in boxes(200),
+            low in vector(-5.0..5.0),
+            size in 0.0_f32..4.0,
+        ) {
             let tree = Bvh::new(&boxes);
             let bounds = Aabb { low, high: low + size };
             let expected: Vec<u32> = (0..).zip(&boxes).filter(|(_, b)| b.overlaps(&bounds)).map(|(i, _)| i).collect();
@@ -218,7 +222,11 @@ mod tests {
         }
 
         #[test]
-        fn a_ray_meets_every_box_in_its_way(boxes in boxes(200), origin in vector(-6.0..6.0), direction in vector(-1.0..1.0)) {
+        fn a_ray_meets_every_box_in_its_way(
+            boxes in boxes(200),
+            origin in vector(-6.0..6.0),
+            direction in vector(-1.0..1.0),
+        ) {
             let tree = Bvh::new(&boxes);
             let mut found = Vec::new();
             tree.ray(origin, direction, 10.0, Instructions::Widest, |index, enter| {
@@ -242,7 +250,11 @@ mod tests {
         }
 
         #[test]
-        fn a_ray_that_is_cut_short_ends_at_the_first_box(boxes in boxes(200), origin in vector(-6.0..6.0), direction in vector(-1.0..1.0)) {
+        fn a_ray_that_is_cut_short_ends_at_the_first_box(
+            boxes in boxes(200),
+            origin in vector(-6.0..6.0),
+            direction in vector(-1.0..1.0),
+        ) {
             let tree = Bvh::new(&boxes);
             let (mut first, mut visited) = (f32::INFINITY, 0);
             tree.ray(origin, direction, f32::INFINITY, Instructions::Widest, |_, enter| {
@@ -258,7 +270,12 @@ mod tests {
         }
 
         #[test]
-        fn a_sweep_is_a_ray_to_grown_boxes(boxes in boxes(100), origin in vector(-6.0..6.0), direction in vector(-1.0..1.0), half in 0.0_f32..2.0) {
+        fn a_sweep_is_a_ray_to_grown_boxes(
+            boxes in boxes(100),
+            origin in vector(-6.0..6.0),
+            direction in vector(-1.0..1.0),
+            half in 0.0_f32..2.0,
+        ) {
             let tree = Bvh::new(&boxes);
             let mut found = vec![None; boxes.len()];
             let moving = Aabb { low: origin - half, high: origin + half };
@@ -279,7 +296,10 @@ mod tests {
         }
 
         #[test]
-        fn the_nearest_boxes_come_with_their_distance(boxes in boxes(200), point in vector(-6.0..6.0)) {
+        fn the_nearest_boxes_come_with_their_distance(
+            boxes in boxes(200),
+            point in vector(-6.0..6.0),
+        ) {
             let tree = Bvh::new(&boxes);
             let distance = |b: &Aabb| (b.low - point).max(point - b.high).max(Vec3::ZERO).length();
             let mut nearest = f32::INFINITY;

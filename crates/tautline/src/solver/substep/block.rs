@@ -61,8 +61,19 @@ pub(super) struct Motion<L> {
 }
 
 #[inline(always)]
-fn particle<L: Lanes>(rows: &ParticleRows, k: usize) -> Vec3x8<L> {
-    Vec3x8::new(L::load(&rows[3 * k]), L::load(&rows[3 * k + 1]), L::load(&rows[3 * k + 2]))
+pub(super) fn particles<L: Lanes>(rows: &ParticleRows) -> [Vec3x8<L>; 4] {
+    let mut vectors = [Vec3x8::zero(); 4];
+    for (k, vector) in vectors.iter_mut().enumerate() {
+        *vector = Vec3x8::new(L::load(&rows[3 * k]), L::load(&rows[3 * k + 1]), L::load(&rows[3 * k + 2]));
+    }
+    vectors
+}
+
+#[inline(always)]
+fn store_particle<L: Lanes>(vector: Vec3x8<L>, rows: &mut [Row]) {
+    vector.x.store(&mut rows[0]);
+    vector.y.store(&mut rows[1]);
+    vector.z.store(&mut rows[2]);
 }
 
 impl Block {
@@ -75,8 +86,7 @@ impl Block {
         scale: L,
     ) -> Motion<L> {
         let quarter = L::splat(0.25);
-        let x: [Vec3x8<L>; 4] = std::array::from_fn(|k| particle(positions, k));
-        let d: [Vec3x8<L>; 4] = std::array::from_fn(|k| particle(displacements, k));
+        let (x, d) = (particles::<L>(positions), particles::<L>(displacements));
         let (front, back) = (x[0] + x[1], x[2] + x[3]);
         let center = (front + back) * quarter;
         let (first, second) = (front - back, (x[0] - x[1]) + (x[2] - x[3]));
@@ -86,7 +96,10 @@ impl Block {
         let e2 = e2 * (L::splat(1.0) / e2.length());
         let axes = Matrix3x8([e0, e2.cross(e0), e2]);
         let linear = ((d[0] + d[1]) + (d[2] + d[3])) * quarter;
-        let moment = (0..4).fold(Vec3x8::zero(), |sum, k| sum + (x[k] - center).cross(d[k]));
+        let mut moment = Vec3x8::zero();
+        for k in 0..4 {
+            moment = moment + (x[k] - center).cross(d[k]);
+        }
         let inertia = Vec3x8::<L>::load(&self.constants.inertia);
         let momentum = axes.apply_transposed(moment * quarter);
         let angular = Vec3x8::new(momentum.x / inertia.x, momentum.y / inertia.y, momentum.z / inertia.z);
@@ -118,10 +131,8 @@ impl Block {
         let arms = [e0 + e1 + e2, e0 - e1 - e2, e1 - e0 - e2, e2 - e0 - e1];
         for (k, arm) in arms.into_iter().enumerate() {
             let (x, d) = (center + arm, motion.linear + turn.cross(arm));
-            for (j, (x, d)) in [(x.x, d.x), (x.y, d.y), (x.z, d.z)].into_iter().enumerate() {
-                x.store(&mut positions[3 * k + j]);
-                d.store(&mut displacements[3 * k + j]);
-            }
+            store_particle(x, &mut positions[3 * k..]);
+            store_particle(d, &mut displacements[3 * k..]);
         }
     }
 
@@ -150,8 +161,11 @@ impl Block {
     #[inline(always)]
     pub(super) fn moved_squared<L: Lanes>(&self, center: &Rows3, axes: &[Rows3; 3]) -> L {
         let shift = Vec3x8::<L>::load(&self.center) - Vec3x8::load(center);
-        let turn = |k: usize| (Vec3x8::<L>::load(&self.axes[k]) - Vec3x8::load(&axes[k])).length_squared();
+        let mut turn = L::splat(0.0);
+        for (now, before) in self.axes.iter().zip(axes) {
+            turn = turn + (Vec3x8::<L>::load(now) - Vec3x8::load(before)).length_squared();
+        }
         let reach = L::load(&self.constants.reach);
-        shift.length_squared() + reach * reach * L::splat(0.5) * (turn(0) + turn(1) + turn(2))
+        shift.length_squared() + reach * reach * L::splat(0.5) * turn
     }
 }

@@ -16,6 +16,7 @@
 use crate::simd::{LANES, Lanes, Row, Vec3x8, rows_at};
 
 use super::batch::{Batch, HeaderRows, PointRows};
+use super::block::Rows3;
 
 /// How a substep corrects what is in each other.
 #[derive(Debug, Clone, Copy, Default)]
@@ -112,6 +113,11 @@ pub(super) fn pass<L: Lanes>(
     }
 }
 
+#[inline(always)]
+fn load_both<L: Lanes>(rows: &[Rows3; 2]) -> [Vec3x8<L>; 2] {
+    [Vec3x8::load(&rows[0]), Vec3x8::load(&rows[1])]
+}
+
 /// One point of eight pairs: normal and friction from the same velocities.
 #[inline(always)]
 fn solve<L: Lanes>(
@@ -129,26 +135,27 @@ fn solve<L: Lanes>(
     let opening = normal.dot(relative) + (normal_b.dot(b.angular) - normal_a.dot(a.angular));
     let impulse = L::load(&rows.normal_impulse);
 
-    let tangents = [0, 1].map(|axis| Vec3x8::<L>::load(&header.tangents[axis]));
-    let tangents_a = [0, 1].map(|axis| Vec3x8::<L>::load(&rows.tangents_a[axis]));
-    let tangents_b = [0, 1].map(|axis| Vec3x8::<L>::load(&rows.tangents_b[axis]));
+    let tangents = load_both::<L>(&header.tangents);
+    let tangents_a = load_both::<L>(&rows.tangents_a);
+    let tangents_b = load_both::<L>(&rows.tangents_b);
     let tangent_mass = L::load(&rows.tangent_mass);
-    let old = [0, 1].map(|axis| L::load(&rows.tangent_impulses[axis]));
+    let old = [L::load(&rows.tangent_impulses[0]), L::load(&rows.tangent_impulses[1])];
     let rate = L::splat(softness.drift_rate);
-    let wanted = [0, 1].map(|axis| {
+    let mut wanted = old;
+    for axis in 0..2 {
         let turning = tangents_b[axis].dot(b.angular) - tangents_a[axis].dot(a.angular);
         let slide = tangents[axis].dot(relative) + turning;
         let slide = match pass {
             Pass::Biased => slide + L::load(&rows.drift[axis]) * rate,
             Pass::Relaxing => slide,
         };
-        old[axis] - slide * tangent_mass
-    });
+        wanted[axis] = old[axis] - slide * tangent_mass;
+    }
     let limit = L::load(&header.friction) * impulse;
     let size = (wanted[0] * wanted[0] + wanted[1] * wanted[1]).max(L::splat(TINY)).sqrt();
     let over = size.greater(limit);
     let scale = over.select(limit / size, L::splat(1.0));
-    let friction = wanted.map(|wanted| wanted * scale);
+    let friction = [wanted[0] * scale, wanted[1] * scale];
     over.and(L::splat(1.0)).store(&mut rows.slides);
     friction[0].store(&mut rows.tangent_impulses[0]);
     friction[1].store(&mut rows.tangent_impulses[1]);

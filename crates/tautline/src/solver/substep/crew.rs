@@ -10,7 +10,7 @@ use crate::parallel;
 use crate::particles::Particles;
 use crate::simd::{Instructions, Kernel, LANES, Lanes, Row, Vec3x8, run};
 
-use super::block::{Block, Constants, Motion, ParticleRows, Rows3};
+use super::block::{Block, Constants, Motion, ParticleRows, Rows3, particles};
 use super::lineup::{Lineup, NOBODY};
 use super::rigidity;
 
@@ -333,8 +333,11 @@ impl Kernel for Read<'_, '_> {
             let columns = block.velocity_rows(motion);
             let kick: [L; LANES] = kick(self.timing, self.particles.is_forced, block, &inputs);
             let lag = L::load(&inputs.lag);
-            let columns = std::array::from_fn(|k| columns[k] + kick[k] * lag);
-            store(columns, &mut self.squad.velocities[range.clone()]);
+            let mut lagging = columns;
+            for k in 0..LANES {
+                lagging[k] = columns[k] + kick[k] * lag;
+            }
+            store(lagging, &mut self.squad.velocities[range.clone()]);
             store(kick, &mut self.squad.kicks[range.clone()]);
             let turning = track(self.timing, block, motion, &mut self.squad.tracks[i]);
             write_poses::<L>(block, turning, &mut self.squad.poses[2 * range.start..2 * range.end]);
@@ -353,17 +356,13 @@ fn kick<L: Lanes>(timing: &Timing, is_forced: bool, block: &Block, inputs: &Inpu
             return [gravity.x, gravity.y, gravity.z, zero, zero, zero, zero, zero];
         }
         let h_squared = L::splat(h * h);
-        let force = |k: usize| {
-            let rows: &Rows3 = &[inputs.forces[3 * k], inputs.forces[3 * k + 1], inputs.forces[3 * k + 2]];
-            Vec3x8::<L>::load(rows)
-        };
-        let position = |k: usize| {
-            let rows: &Rows3 = &[inputs.positions[3 * k], inputs.positions[3 * k + 1], inputs.positions[3 * k + 2]];
-            Vec3x8::<L>::load(rows)
-        };
+        let (forces, positions) = (particles::<L>(&inputs.forces), particles::<L>(&inputs.positions));
         let center = Vec3x8::<L>::load(&block.center);
-        let total = (0..4).fold(Vec3x8::<L>::zero(), |sum, k| sum + force(k));
-        let torque = (0..4).fold(Vec3x8::<L>::zero(), |sum, k| sum + (position(k) - center).cross(force(k)));
+        let (mut total, mut torque) = (Vec3x8::<L>::zero(), Vec3x8::<L>::zero());
+        for (force, position) in forces.into_iter().zip(positions) {
+            total = total + force;
+            torque = torque + (position - center).cross(force);
+        }
         let linear = gravity + total * (L::load(&constants.inverse_mass) * h_squared);
         let turn = block.axes_now().apply_transposed(torque).scale(Vec3x8::load(&constants.inverse_root_inertia));
         let turn = turn * (L::load(&constants.response) * h_squared);
@@ -383,12 +382,9 @@ fn track<L: Lanes>(timing: &Timing, block: &Block, motion: Motion<L>, track: &mu
         let has_moved = moved.greater(L::splat(TOLERANCE * TOLERANCE));
         track.moved |= has_moved.bits();
         if track.moved != 0 {
-            let update = |rows: &mut Rows3, now: &Rows3| {
-                Vec3x8::select(has_moved, Vec3x8::<L>::load(now), Vec3x8::load(rows)).store(rows);
-            };
-            update(&mut track.seen.center, &block.center);
+            update(has_moved, &mut track.seen.center, &block.center);
             for (rows, now) in track.seen.axes.iter_mut().zip(&block.axes) {
-                update(rows, now);
+                update(has_moved, rows, now);
             }
         }
         let away = block.moved_squared::<L>(&track.boxed.center, &track.boxed.axes).sqrt();
@@ -396,10 +392,17 @@ fn track<L: Lanes>(timing: &Timing, block: &Block, motion: Motion<L>, track: &mu
         turning
     }
 
+/// Where the mask is set.
+#[inline(always)]
+fn update<L: Lanes>(mask: L, rows: &mut Rows3, now: &Rows3) {
+    Vec3x8::select(mask, Vec3x8::<L>::load(now), Vec3x8::load(rows)).store(rows);
+}
+
 #[inline(always)]
 fn store<L: Lanes>(columns: [L; LANES], rows: &mut [Row]) {
-    for (lanes, row) in L::transpose(columns).into_iter().zip(rows) {
-        lanes.store(row);
+    let lanes = L::transpose(columns);
+    for (lane, row) in rows.iter_mut().enumerate() {
+        lanes[lane].store(row);
     }
 }
 
@@ -425,9 +428,9 @@ fn write_poses<L: Lanes>(block: &Block, turning: L, poses: &mut [Row]) {
     let [e0, e1, _] = block.axes_now::<L>().0;
     let reach = L::load(&constants.reach);
     let second = L::transpose([e0.x, e0.y, e0.z, e1.x, e1.y, e1.z, turning, reach]);
-    for ((pose, first), second) in poses.chunks_exact_mut(2).zip(first).zip(second) {
-        first.store(&mut pose[0]);
-        second.store(&mut pose[1]);
+    for (lane, pose) in poses.chunks_exact_mut(2).enumerate() {
+        first[lane].store(&mut pose[0]);
+        second[lane].store(&mut pose[1]);
     }
 }
 

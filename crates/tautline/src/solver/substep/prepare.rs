@@ -17,11 +17,21 @@ struct Frames<L> {
     response: L,
 }
 
+impl<L: Lanes> Frames<L> {
+    #[inline(always)]
+    fn in_frame(&self, [x, y, z]: &[Vec3x8<L>; 3]) -> [Vec3x8<L>; 3] {
+        [self.axes.apply_transposed(*x), self.axes.apply_transposed(*y), self.axes.apply_transposed(*z)]
+    }
+}
+
 impl Poses<'_> {
     #[inline(always)]
     fn gather<L: Lanes>(&self, places: &[u32; LANES]) -> Frames<L> {
-        let first = L::gather(rows_at(self.0, &places.map(|place| 2 * place)));
-        let second = L::gather(rows_at(self.0, &places.map(|place| 2 * place + 1)));
+        let (mut firsts, mut seconds) = (*places, *places);
+        for lane in 0..LANES {
+            (firsts[lane], seconds[lane]) = (2 * places[lane], 2 * places[lane] + 1);
+        }
+        let (first, second) = (L::gather(rows_at(self.0, &firsts)), L::gather(rows_at(self.0, &seconds)));
         let e0 = Vec3x8::new(second[0], second[1], second[2]);
         let e1 = Vec3x8::new(second[3], second[4], second[5]);
         Frames {
@@ -43,6 +53,26 @@ fn held<'a>(batch: &Batch, contact_of: impl Fn(u32) -> Option<&'a Held>) -> [&'a
     batch.pairs.map(|pair| if pair == NO_PAIR { &NOTHING } else { contact_of(pair).unwrap_or(&NOTHING) })
 }
 
+#[inline(always)]
+fn headers_of<'a>(held: &[&'a Held; LANES]) -> [&'a Row; LANES] {
+    let mut rows = [&NOTHING.header; LANES];
+    for lane in 0..LANES {
+        rows[lane] = &held[lane].header;
+    }
+    rows
+}
+
+/// The anchors and the friction of point k.
+#[inline(always)]
+fn rows_of<'a>(held: &[&'a Held; LANES], k: usize) -> ([&'a Row; LANES], [&'a Row; LANES]) {
+    let (mut anchors, mut friction) = ([&NOTHING.header; LANES], [&NOTHING.header; LANES]);
+    for lane in 0..LANES {
+        let point = &held[lane].points[k];
+        (anchors[lane], friction[lane]) = (&point.anchors, &point.friction);
+    }
+    (anchors, friction)
+}
+
 /// Fills the rows of a batch, and adds what its multipliers do to `accumulated`.
 #[inline(always)]
 pub(super) fn fill<'a, L: Lanes>(
@@ -54,7 +84,7 @@ pub(super) fn fill<'a, L: Lanes>(
 ) {
     let (a, b) = (poses.gather::<L>(&batch.place_a), poses.gather::<L>(&batch.place_b));
     let held = held(batch, contact_of);
-    let shared = L::gather(held.map(|held| &held.header));
+    let shared = L::gather(headers_of(&held));
     let normal = Vec3x8::new(shared[0], shared[1], shared[2]);
     let directions = with_tangents(normal);
     normal.store(&mut header.normal);
@@ -65,12 +95,11 @@ pub(super) fn fill<'a, L: Lanes>(
     let mut sum_a = L::gather(rows_at(accumulated, &batch.a));
     let mut sum_b = L::gather(rows_at(accumulated, &batch.b));
     let mut impulse = Vec3x8::<L>::zero();
-    let local_a = directions.map(|d| a.axes.apply_transposed(d));
-    let local_b = directions.map(|d| b.axes.apply_transposed(d));
+    let (local_a, local_b) = (a.in_frame(&directions), b.in_frame(&directions));
     let between = b.center - a.center;
     for (k, rows) in points.iter_mut().enumerate() {
-        let anchors = L::gather(held.map(|held| &held.points[k].anchors));
-        let friction = L::gather(held.map(|held| &held.points[k].friction));
+        let (anchors, friction) = rows_of(&held, k);
+        let (anchors, friction) = (L::gather(anchors), L::gather(friction));
         let on_a = Vec3x8::new(anchors[0], anchors[1], anchors[2]);
         let on_b = Vec3x8::new(anchors[4], anchors[5], anchors[6]);
         let distance = between + (b.axes.apply(on_b) - a.axes.apply(on_a));
@@ -78,9 +107,10 @@ pub(super) fn fill<'a, L: Lanes>(
         let tangential = Vec3x8::new(friction[4], friction[5], friction[6]);
         let impulses = [anchors[3], directions[1].dot(tangential), directions[2].dot(tangential)];
         let mut masses = [L::splat(0.0); 3];
-        let jacobians_a = [&mut rows.normal_a].into_iter().chain(&mut rows.tangents_a);
-        let jacobians_b = [&mut rows.normal_b].into_iter().chain(&mut rows.tangents_b);
-        for (j, (row_a, row_b)) in jacobians_a.zip(jacobians_b).enumerate() {
+        let [first_a, second_a] = &mut rows.tangents_a;
+        let [first_b, second_b] = &mut rows.tangents_b;
+        let jacobians = [(&mut rows.normal_a, &mut rows.normal_b), (first_a, first_b), (second_a, second_b)];
+        for (j, (row_a, row_b)) in jacobians.into_iter().enumerate() {
             let ja = on_a.cross(local_a[j]).scale(a.inverse_root_inertia);
             let jb = on_b.cross(local_b[j]).scale(b.inverse_root_inertia);
             let compliance = a.inverse_mass

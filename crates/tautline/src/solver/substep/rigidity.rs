@@ -26,15 +26,28 @@ pub(super) fn advance<L: Lanes>(block: &mut Block, columns: &[L; LANES], h: f32)
     let axes = Matrix3x8::<L>::load(&block.axes);
     // L in the world's frame stays; ω follows from where the axes are now.
     let momentum = axes.apply(motion.angular.scale(inertia));
-    let turned = Matrix3x8(turn.0.map(|column| axes.apply(column)));
+    let [x, y, z] = turn.0;
+    let turned = Matrix3x8([axes.apply(x), axes.apply(y), axes.apply(z)]);
     turned.store(&mut block.axes);
     let momentum = turned.apply_transposed(momentum);
     let angular = Vec3x8::new(momentum.x / inertia.x, momentum.y / inertia.y, momentum.z / inertia.z);
 
     let in_start = Matrix3x8::<L>::load(&block.start_axes).apply_transposed(turned.apply(angular));
-    let kept = |rate: &Row| L::splat(1.0) / (L::splat(1.0) + L::load(rate) * L::splat(h));
-    let [linear, angular] = block.constants.damping.each_ref().map(kept);
+    let (linear, angular) = (kept(&block.constants.damping[0], h), kept(&block.constants.damping[1], h));
     block.velocity_rows(Motion { linear: motion.linear * linear, angular: in_start * angular })
+}
+
+/// What a substep of `h` (s) leaves of a motion that dies out at this rate (1/s).
+#[inline(always)]
+fn kept<L: Lanes>(rate: &Row, h: f32) -> L {
+    L::splat(1.0) / (L::splat(1.0) + L::load(rate) * L::splat(h))
+}
+
+/// Of the quaternion with this imaginary part. Half a turn in a substep is as far as the equation goes; what spins
+/// faster is held there.
+#[inline(always)]
+fn real_part<L: Lanes>(u: Vec3x8<L>) -> L {
+    (L::splat(1.0) - u.length_squared()).max(L::splat(0.1)).sqrt()
 }
 
 /// The rotation, in the body's frame, of a body that turns by `angular` = ω h.
@@ -43,8 +56,6 @@ fn turn_of<L: Lanes>(angular: Vec3x8<L>, inertia: Vec3x8<L>) -> Matrix3x8<L> {
     let (one, two) = (L::splat(1.0), L::splat(2.0));
     let inverse = Vec3x8::new(one / inertia.x, one / inertia.y, one / inertia.z);
     let half = angular * L::splat(0.5);
-    // Half a turn in a substep is as far as the equation goes; what spins faster is held there.
-    let real_part = |u: Vec3x8<L>| (one - u.length_squared()).max(L::splat(0.1)).sqrt();
     let mut u = half;
     for _ in 0..ITERATIONS {
         let coupling = u.cross(u.scale(inertia)).scale(inverse);
