@@ -38,7 +38,6 @@ const PNG_SCALE: u32 = 2;
 
 const INK: RGBColor = RGBColor(40, 44, 52);
 const FAINT: RGBColor = RGBColor(118, 124, 134);
-const GRID: RGBColor = RGBColor(232, 234, 238);
 /// Ours, by order of substeps: blue, which everybody can tell from orange and grey.
 const OURS: [RGBColor; 3] = [RGBColor(31, 95, 191), RGBColor(122, 168, 232), RGBColor(186, 210, 243)];
 const RAPIER: RGBColor = RGBColor(224, 122, 32);
@@ -112,7 +111,7 @@ where
         scale,
     ))?;
     draw_legend(panels, area, scale)?;
-    let body = area.margin(84 * s, 10 * s, 16 * s, 16 * s);
+    let body = area.margin(72 * s, 8 * s, 16 * s, 16 * s);
     let tallest = panels.iter().flat_map(|panel| &panel.groups).flat_map(|group| &group.bars);
     let tallest = tallest.map(|bar| bar.microseconds).fold(1e-6, f64::max);
     for (panel, area) in panels.iter().zip(body.split_evenly((1, panels.len()))) {
@@ -131,7 +130,7 @@ where
     let mut x = 24 * s;
     let bars = panels.iter().flat_map(|panel| &panel.groups).next().map_or(&[][..], |group| &group.bars);
     for (bar, color) in bars.iter().zip(colors(bars)) {
-        let square = [(x, 50 * s), (x + 12 * s, 62 * s)];
+        let square = [(x, 49 * s), (x + 12 * s, 61 * s)];
         area.draw(&Rectangle::new(square, color.filled()))?;
         let label = bar.contender.label();
         area.draw(&text(&label, (x + 18 * s, 49 * s), 14, INK, HPos::Left, scale))?;
@@ -154,19 +153,8 @@ where
     let mut axes = ChartBuilder::on(area)
         .margin(8 * scale)
         .x_label_area_size(44 * scale)
-        .y_label_area_size(30 * scale)
-        .build_cartesian_2d(-0.5..panel.groups.len() as f64 - 0.5, 0.0..tallest * 1.15)?;
-    axes.configure_mesh()
-        .disable_x_mesh()
-        .disable_x_axis()
-        .bold_line_style(GRID.stroke_width(scale))
-        .light_line_style(TRANSPARENT)
-        .axis_style(TRANSPARENT)
-        .label_style(font(12, FAINT, scale))
-        .set_all_tick_mark_size(0)
-        .y_labels(5)
-        .y_label_formatter(&|y| format!("{y}"))
-        .draw()?;
+        .y_label_area_size(0)
+        .build_cartesian_2d(-0.5..panel.groups.len() as f64 - 0.5, 0.0..tallest * 1.1)?;
     for (place, group) in panel.groups.iter().enumerate() {
         let width = 0.84 / group.bars.len() as f64;
         for (i, (bar, color)) in group.bars.iter().zip(colors(&group.bars)).enumerate() {
@@ -233,4 +221,65 @@ fn register_font_once() {
         // It fails only for bytes that are no font; drawing would then say that there is none.
         let _ = register_font("sans-serif", FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT);
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bars() -> Vec<Panel> {
+        let contenders = [
+            Contender::Ours { substeps: 8 },
+            Contender::Ours { substeps: 4 },
+            Contender::Rapier,
+            Contender::Box3d,
+        ];
+        let group = |n: usize| Group {
+            n,
+            bars: contenders
+                .iter()
+                .zip(1..)
+                .map(|(&contender, i)| Bar { contender, microseconds: f64::from(i) })
+                .collect(),
+        };
+        let panel = |title: &str| Panel { title: title.into(), groups: [200, 4000].map(group).into() };
+        vec![panel("Flying"), panel("Settled")]
+    }
+
+    #[test]
+    fn the_chart_names_what_it_shows() {
+        let svg = svg(&bars()).unwrap();
+        let texts = [
+            "less is better",
+            "Flying",
+            "Settled",
+            "200 bodies",
+            "4 000 bodies",
+            "8 substeps",
+            "rapier",
+            "Box3D",
+            "3.00",
+        ];
+        for text in texts {
+            assert!(svg.contains(text), "{text} is not in the SVG");
+        }
+    }
+
+    #[test]
+    fn bars_are_as_high_as_their_values() {
+        let image = image(&bars()).unwrap();
+        let area = |color: RGBColor| {
+            image.pixels.iter().filter(|&&p| p == [color.0, color.1, color.2]).count() as f64
+        };
+        // The legend's squares and the baseline make a small difference.
+        let unit = area(OURS[0]);
+        for (color, height) in [(OURS[1], 2.0), (RAPIER, 3.0), (BOX3D, 4.0)] {
+            assert!((area(color) / unit / height - 1.0).abs() < 0.05, "{color:?}: {}", area(color) / unit);
+        }
+    }
+
+    #[test]
+    fn thousands_are_set_apart() {
+        assert_eq!([200, 4000, 16_050, 1_000_000].map(grouped), ["200", "4 000", "16 050", "1 000 000"]);
+    }
 }

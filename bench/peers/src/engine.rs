@@ -56,13 +56,14 @@ impl Contender {
         !matches!(self, Self::Ours { .. })
     }
 
-    /// Its version, as the lock file of this comparison has it.
-    pub(crate) fn version(self) -> &'static str {
-        locked_version(match self {
+    /// Its package and that one's version, as the lock file of this comparison has it.
+    pub(crate) fn version(self) -> String {
+        let package = match self {
             Self::Ours { .. } => "tautline",
             Self::Rapier => "rapier3d",
             Self::Box3d => "boxddd",
-        })
+        };
+        format!("{package} {}", locked_version(package))
     }
 }
 
@@ -80,8 +81,8 @@ mod tests {
 
     #[test]
     fn versions_are_known() {
-        for contender in [Contender::Ours { substeps: 8 }, Contender::Rapier, Contender::Box3d] {
-            assert!(contender.version().starts_with(|c: char| c.is_ascii_digit()), "{}", contender.version());
+        for package in ["tautline", "rapier3d", "boxddd"] {
+            assert!(locked_version(package).starts_with(|c: char| c.is_ascii_digit()), "{package}");
         }
     }
 

@@ -113,11 +113,6 @@ fn wall_depth(body: &Placed, side: f64) -> f64 {
 /// above 0 if the two are apart.
 fn pair_depth(a: &Placed, b: &Placed) -> f64 {
     let offset = b.center - a.center;
-    let mut least = f64::INFINITY;
-    let mut separates = |axis: DVec3| {
-        least = least.min(a.reach(axis) + b.reach(axis) - axis.dot(offset).abs());
-        least <= 0.0
-    };
     let normals = a.axes.face_normals.iter().chain(&b.axes.face_normals);
     let products = a.axes.edge_directions.iter().flat_map(|&edge_a| {
         b.axes.edge_directions.iter().filter_map(move |&edge_b| {
@@ -126,8 +121,14 @@ fn pair_depth(a: &Placed, b: &Placed) -> f64 {
             (product.length_squared() > 1e-8).then(|| product.normalize())
         })
     });
-    // Most pairs are apart, and one axis shows it.
-    let _ = normals.copied().chain(products).any(|axis| separates(axis));
+    let mut least = f64::INFINITY;
+    for axis in normals.copied().chain(products) {
+        least = least.min(a.reach(axis) + b.reach(axis) - axis.dot(offset).abs());
+        // Most pairs are apart, and one axis shows it.
+        if least <= 0.0 {
+            break;
+        }
+    }
     least
 }
 
