@@ -91,6 +91,10 @@ impl RigidSolver {
 /// All pairs of parts whose boxes overlap.
 fn pair_parts((a, rigid_a): (&Boxed, &Rigid), (b, rigid_b): (&Boxed, &Rigid), keys: &mut Vec<Key>) {
     let (parts_a, parts_b) = (rigid_a.shape.parts(), rigid_b.shape.parts());
+    let (centers, reach) = (a.center.distance(b.center), rigid_a.shape.reach() + rigid_b.shape.reach());
+    if centers > reach + a.room + b.room {
+        return;
+    }
     if parts_a.len() == 1 && parts_b.len() == 1 {
         keys.push(Key { a: a.body, b: b.body, part_a: 0, part_b: 0 });
         return;
