@@ -3,7 +3,7 @@
 use glam::{Mat3, Vec3};
 
 use super::RigidSolver;
-use super::lineup::{NOBODY, Role};
+use super::lineup::NOBODY;
 use super::pairs::Key;
 use crate::body::{Body, CollisionGroups, HalfSpace, Motion, Rigid, Substance};
 use crate::collision::Aabb;

@@ -11,7 +11,7 @@ use crate::particles::Particles;
 use crate::simd::{Instructions, Kernel, LANES, Lanes, Row, Vec3x8, run};
 
 use super::block::{Block, Constants, Motion, ParticleRows, Rows3, particles};
-use super::lineup::{Lineup, NOBODY};
+use super::lineup::Lineup;
 use super::rigidity;
 
 /// How far a body moves before its contacts are looked for anew, in m.
@@ -72,7 +72,7 @@ pub(super) struct Crew {
     /// Velocities when `accumulated` was last brought up to date.
     before: Vec<Row>,
     /// What forces add to each velocity in a substep.
-    kicks: Vec<Row>,
+    pub(super) kicks: Vec<Row>,
 }
 
 /// A run of blocks with all that belongs to them.
