@@ -5,11 +5,26 @@ use super::core::{Core, Pair};
 use super::key::{Body, Key};
 use super::reduce::Candidate;
 use super::touch::Touch;
+use super::{Manifold, Scratch};
 
-/// The ends of the stretch along which the segments run side by side, where less than `limit` m apart; none if they
-/// are not parallel.
-pub(super) fn candidates<B: Core>(pair: &Pair<B>, touch: &Touch, limit: f32, out: &mut Vec<Candidate>) {
-    out.clear();
+/// The contact of two segments whose cores are less than `limit` m apart.
+pub(super) fn touching<B: Core>(
+    pair: &Pair<B>,
+    touch: &Touch,
+    limit: f32,
+    scratch: &mut Scratch,
+) -> Manifold {
+    let candidates = &mut scratch.polygon.candidates;
+    candidates.clear();
+    stretch(pair, touch, limit, candidates);
+    if candidates.is_empty() {
+        return Manifold::single(pair, touch);
+    }
+    Manifold::of_candidates(pair, touch.normal, candidates, touch.size)
+}
+
+/// The ends of the stretch along which the segments run side by side; none if they are not parallel.
+fn stretch<B: Core>(pair: &Pair<B>, touch: &Touch, limit: f32, out: &mut Vec<Candidate>) {
     let [start_a, end_a] = [0, 1].map(|i| pair.point_of_a(i));
     let [start_b, end_b] = [0, 1].map(|i| pair.point_of_b(i));
     let (along_a, along_b) = (end_a - start_a, end_b - start_b);
