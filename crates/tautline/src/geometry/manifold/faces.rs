@@ -12,7 +12,7 @@ use crate::simd::Lanes;
 
 /// How much higher than the deepest corner, as part of the size, the deepest clipped point may be: more, and the face
 /// is not what touches.
-const MISSED: f32 = 2e-3;
+const MISSED: f32 = 5e-4;
 /// How much deeper than the nearest points it may be: more, and the face is not what separates best.
 const MISLED: f32 = 1e-2;
 

@@ -12,9 +12,9 @@ mod core;
 mod exact;
 mod faces;
 mod key;
-mod parallel;
 mod plane;
 mod reduce;
+mod round;
 mod scale;
 mod simplex;
 mod touch;
@@ -138,6 +138,9 @@ pub(crate) fn collide<L: Lanes>(
 ) -> Manifold {
     let pair = Pair { a, b, b_in_a };
     let axis = b_in_a.translation.normalize_or(Vec3::Y);
+    if a.vertices.len() == 1 && b.vertices.len() == 1 {
+        return round::balls(&pair, memory, axis, margin);
+    }
     let Some(start) = Start::new::<L, _>(&pair, memory, axis, margin) else { return Manifold::default() };
     let is_round = a.vertices.len() == 1 || b.vertices.len() == 1;
     if !is_round
@@ -155,7 +158,7 @@ pub(crate) fn collide<L: Lanes>(
     if is_round {
         Manifold::single(&pair, &touch)
     } else if a.vertices.len() == 2 && b.vertices.len() == 2 {
-        parallel::touching(&pair, &touch, limit, scratch)
+        round::capsules(&pair, &touch, limit, scratch)
     } else {
         match Reference::choose::<L, _>(&pair, touch.normal) {
             Some(reference) => faces::touching::<L, _>(&pair, &touch, &reference, limit, scratch),

@@ -19,10 +19,9 @@ pub(super) struct Scale {
 impl Scale {
     #[inline(always)]
     pub(super) fn at<B: Core>(pair: &Pair<B>, [a, b]: [u16; 2]) -> Self {
-        let size_a = pair.a.vertices[usize::from(a)].length() + pair.a.radius;
-        let size_b = pair.b.vertices()[usize::from(b)].length() + pair.b.radius();
-        let size = if size_a < size_b { size_a } else { size_b };
-        Self { size, coordinates: size_a + size_b }
+        let (size_a, size_b) = (pair.a.size, pair.b.size());
+        let reach = pair.a.vertices[usize::from(a)].length() + pair.b.vertices()[usize::from(b)].length();
+        Self { size: if size_a < size_b { size_a } else { size_b }, coordinates: reach + size_a + size_b }
     }
 
     /// By how much a pair at this separation has to be shifted, in m.

@@ -3,6 +3,7 @@
 mod distances;
 mod faces;
 mod meshes;
+mod motion;
 mod oracle;
 mod planes;
 mod round;
@@ -14,6 +15,7 @@ mod surfaces;
 use glam::Mat3;
 
 use super::*;
+use crate::shape::Face;
 use crate::simd::{Instructions, Kernel, run};
 
 /// `collide`, called as the engine does.

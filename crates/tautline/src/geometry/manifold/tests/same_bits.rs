@@ -54,3 +54,8 @@ fn foreign_and_broken_memory_costs_time_only() {
     let nowhere = Placement { translation: Vec3::NAN, ..place(&mut random, &cube, &cube, 0.0) };
     assert_eq!(collide_new(&cube, &cube, &nowhere, 0.1).count, 0);
 }
+
+#[test]
+fn memory_is_small() {
+    assert!(size_of::<Memory>() <= 40);
+}

@@ -117,13 +117,3 @@ fn nanoseconds_per_call() {
         println!("{name:12} touching {time:7.1} ns {points:5.2} points");
     }
 }
-
-#[test]
-#[ignore = "it measures"]
-fn temporary_faces() {
-    let b = cuboid(Vec3::splat(0.5));
-    for _ in 0..10 {
-        let (t, p) = measure([&b, &b], stacked([&b, &b]), 0.02);
-        println!("{t} {p}");
-    }
-}

@@ -1,14 +1,36 @@
-//! Two segments side by side touch along a stretch: its ends are the contact.
+//! Two balls, and two capsules: segments side by side touch along a stretch, whose ends are the contact.
+
+use glam::Vec3;
 
 use super::clip::ALIGNED;
 use super::core::{Core, Pair};
 use super::key::{Body, Key};
 use super::reduce::Candidate;
 use super::touch::Touch;
-use super::{Manifold, Scratch};
+use super::{Manifold, Memory, Scratch};
+
+/// The contact of two balls, or no points if they are further apart than `margin`. Where both centres are the same,
+/// the remembered axis is kept, or `axis` taken.
+#[inline(always)]
+pub(super) fn balls<B: Core>(pair: &Pair<B>, memory: &mut Memory, axis: Vec3, margin: f32) -> Manifold {
+    let on_a = pair.point_of_a(0);
+    let on_b = pair.point_of_b(0);
+    let distance = (on_b - on_a).length();
+    let normal = if distance > 0.0 {
+        (on_b - on_a) / distance
+    } else if memory.is_usable(pair) {
+        memory.axis
+    } else {
+        axis
+    };
+    let size = pair.a.size.min(pair.b.size());
+    let touch = Touch { normal, separation: distance, on_a, on_b, pairs: [[0; 2]; 3], count: 1, size };
+    memory.keep(&touch, pair.radii());
+    if memory.separation <= margin { Manifold::single(pair, &touch) } else { Manifold::default() }
+}
 
 /// The contact of two segments whose cores are less than `limit` m apart.
-pub(super) fn touching<B: Core>(
+pub(super) fn capsules<B: Core>(
     pair: &Pair<B>,
     touch: &Touch,
     limit: f32,
