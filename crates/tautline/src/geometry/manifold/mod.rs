@@ -46,7 +46,8 @@ const SLOP: f32 = 1e-4;
 /// A place where two bodies touch, or soon will.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct ManifoldPoint {
-    /// On the surface of A, in A's frame, in m.
+    /// On the surface of A, in A's frame, in m. (Of a rounded edge at an angle to the face it touches: the radius from
+    /// its core along the normal, and so a little within the surface.)
     pub(crate) on_a: Vec3,
     /// On the surface of B, in B's frame, in m: `separation` from the former, along the normal.
     pub(crate) on_b: Vec3,

@@ -1,5 +1,7 @@
 //! What a call costs: `cargo test --release -p tautline --lib manifold::tests::speed -- --ignored --nocapture`.
 
+// The tidy check takes what follows this line for tests.
+#[cfg(test)]
 use std::hint::black_box;
 use std::time::Instant;
 
