@@ -327,6 +327,7 @@ mod tests {
         fn noisy_hulls_are_closed_and_convex(points in noisy()) {
             if let Ok(convex) = Convex::around(&points, 0.0) {
                 check(&convex, &points);
+                prop_assert!(convex.is_sound());
             }
         }
     }
