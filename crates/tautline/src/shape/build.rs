@@ -124,6 +124,7 @@ impl Shape {
             return Err(Error::Invalid { field: "parts".into(), problem: "there are none".into() });
         }
         let (mut masses, mut cores, mut display) = (Vec::new(), Vec::new(), TriMesh::default());
+        let mut excess = 0.0;
         for (number, &(shape, translation, rotation)) in parts.iter().enumerate() {
             coordinates(&format!("parts[{number}].translation"), translation)?;
             if !shape.is_solid() {
@@ -134,6 +135,7 @@ impl Shape {
             within(&format!("parts[{number}].rotation"), rotation.length_squared(), 1e-6, 1e6, expected)?;
             let rotation = DMat3::from_quat(rotation.as_dquat().normalize());
             let place = |point: DVec3| rotation * point + translation.as_dvec3();
+            excess += f64::from(shape.hull_excess) * shape.volume;
             masses.push(shape.mass().moved(rotation, translation.as_dvec3()));
             cores.extend(shape.parts.iter().map(|part| Core {
                 points: part.convex.vertices.iter().map(|&p| place(shape.frame.leave(p))).collect(),
@@ -143,7 +145,9 @@ impl Shape {
             display.positions.extend(shape.positions().iter().map(|p| place(p.as_dvec3()).as_vec3()));
             display.triangles.extend(shape.triangles().iter().map(|t| t.map(|v| first + v)));
         }
-        Self::solid("parts", &Mass::sum(&masses), &cores, display)
+        let mass = Mass::sum(&masses);
+        let shape = Self::solid("parts", &mass, &cores, display)?;
+        Ok(Self { hull_excess: (excess / mass.volume) as f32, ..shape })
     }
 
     /// The triangles of a mesh, in m, which may be open. Only their front, from where they run counter-clockwise, is

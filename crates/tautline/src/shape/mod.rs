@@ -117,8 +117,8 @@ impl Shape {
         self.parts.len()
     }
 
-    /// The volume by which its convex parts together exceed the mesh it was made from ([`Shape::from_mesh`]), as a share
-    /// of the mesh's volume; 0 for other shapes. What sticks out of a part counts, also where another part covers it.
+    /// The volume by which its convex parts together exceed the concave meshes it was made from ([`Shape::from_mesh`]), as
+    /// a share of its volume; 0 for other shapes. What sticks out counts also where another part covers it.
     pub fn hull_excess(&self) -> f32 {
         self.hull_excess
     }

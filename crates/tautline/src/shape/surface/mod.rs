@@ -22,7 +22,7 @@ const MAX_COUNT: u32 = 2049;
 #[serde(try_from = "TriMesh", into = "TriMesh")]
 pub(crate) struct Surface {
     mesh: TriMesh,
-    /// By triangle, a bit for each side: see [`Triangle::active`].
+    /// By triangle, a bit for each side: see [`Triangle::active_edges`].
     active: Vec<u8>,
     tree: Tree,
 }
@@ -37,7 +37,7 @@ pub(crate) struct Triangle {
     /// Bit k is set if the side from corner k to corner k + 1 can be felt from outside: it is open, or a ridge of
     /// more than 5°. Elsewhere a contact's normal is the triangle's own, so that what slides over a flat floor
     /// does not trip over its seams (as in Jolt's active edges).
-    pub(crate) active: u8,
+    pub(crate) active_edges: u8,
 }
 
 impl Surface {
@@ -98,7 +98,7 @@ impl Surface {
     /// The triangle of this number, which has to be one of [`TriMesh::triangles`].
     pub(crate) fn triangle(&self, number: u32) -> Triangle {
         let corners = self.corners(number);
-        Triangle { corners, normal: normal(&corners).as_vec3(), active: self.active[number as usize] }
+        Triangle { corners, normal: normal(&corners).as_vec3(), active_edges: self.active[number as usize] }
     }
 
     /// Puts the numbers of the triangles into `out` whose boxes overlap this one, ascending; touching counts.
@@ -184,7 +184,7 @@ mod tests {
                 .enumerate()
             {
                 let on_rim = (p.x == q.x && p.x.abs() == 0.5) || (p.z == q.z && p.z.abs() == 0.5);
-                assert_eq!(triangle.active >> k & 1 == 1, on_rim);
+                assert_eq!(triangle.active_edges >> k & 1 == 1, on_rim);
             }
         }
     }
