@@ -87,7 +87,9 @@ mod step;
 mod view;
 mod world;
 
-pub use body::{BodyKind, Cloth, HalfSpace, Rope, Truss, TrussBody};
+pub use body::{
+    BodyKind, Cloth, CollisionGroups, Combine, HalfSpace, Motion, RigidBody, Rope, Surface, Truss, TrussBody,
+};
 pub use error::{Error, MeshDefect};
 pub use glam::{DVec3, Mat3, Quat, Vec3};
 pub use measure::{Penetration, Strain};

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::body::{Body, Shape, Truss};
+use crate::body::{Body, Substance, Truss};
 use crate::collision::{Aabb, Candidate, find_pairs};
 use crate::geometry::distance;
 use crate::geometry::epa::Epa;
@@ -100,9 +100,9 @@ impl World {
         let trusses: Vec<(&Body, &Truss)> = self
             .bodies
             .iter()
-            .filter_map(|body| match &body.shape {
-                Shape::Truss { truss } => Some((body, &**truss)),
-                Shape::Deformable(_) | Shape::HalfSpace(_) => None,
+            .filter_map(|body| match &body.substance {
+                Substance::Truss { truss } => Some((body, &**truss)),
+                Substance::Rigid(_) | Substance::Deformable(_) | Substance::HalfSpace(_) => None,
             })
             .collect();
         let hull = |(body, truss): (&Body, &Truss)| {
@@ -127,7 +127,7 @@ impl World {
 
     fn wall_depths(&self, depths: &mut Vec<f32>) {
         for wall in &self.bodies {
-            let Shape::HalfSpace(wall) = &wall.shape else { continue };
+            let Substance::HalfSpace(wall) = &wall.substance else { continue };
             for body in self.bodies.iter().filter(|body| !body.fixed) {
                 let positions = &self.particles.position[body.particles.clone()];
                 depths.extend(positions.iter().map(|&x| wall.offset - wall.normal.dot(x)).reduce(f32::max));

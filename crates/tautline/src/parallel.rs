@@ -1,6 +1,15 @@
 //! Spreading independent work over the rayon pool that a step is called from. Results do not depend on how
 //! many threads there are: every item is worked on by itself, and results are put together in order.
 
+/// Whether work on so many items should be spread: there are more threads than one, and `least` items.
+pub(crate) fn is_worthwhile(count: usize, least: usize) -> bool {
+    #[cfg(feature = "parallel")]
+    let threads = rayon::current_num_threads();
+    #[cfg(not(feature = "parallel"))]
+    let threads = 1;
+    count >= least && threads > 1
+}
+
 /// Calls `work` on every item, side by side if `worthwhile`: waking threads costs some ten microseconds.
 pub(crate) fn for_each<T: Send>(items: &mut [T], worthwhile: bool, work: impl Fn(&mut T) + Send + Sync) {
     #[cfg(feature = "parallel")]

@@ -24,6 +24,8 @@ pub(crate) struct Particles {
     pub(crate) mass: Vec<f32>,
     /// Sum of the external forces for the coming step, in N.
     pub(crate) force: Vec<Vec3>,
+    /// Whether any of them may not be zero.
+    pub(crate) is_forced: bool,
 }
 
 /// The particles of one body, to be moved by a solver.
@@ -68,6 +70,13 @@ impl Particles {
         self.inverse_mass.drain(range.clone());
         self.mass.drain(range.clone());
         self.force.drain(range);
+    }
+
+    /// Forgets the forces of the step that ends.
+    pub(crate) fn clear_forces(&mut self) {
+        if std::mem::take(&mut self.is_forced) {
+            self.force.fill(Vec3::ZERO);
+        }
     }
 
     /// Moves a particle by `shift` (m) and so changes its displacement alike: Verlet reads a projection as

@@ -43,6 +43,8 @@ pub struct PhaseSeconds {
     pub separate: f64,
     /// Relaxing constraints.
     pub relax: f64,
+    /// Solving for rigid bodies.
+    pub solve: f64,
 }
 
 impl std::ops::AddAssign for PhaseSeconds {
@@ -52,6 +54,7 @@ impl std::ops::AddAssign for PhaseSeconds {
         self.narrow_phase += other.narrow_phase;
         self.separate += other.separate;
         self.relax += other.relax;
+        self.solve += other.solve;
     }
 }
 
@@ -65,6 +68,7 @@ pub(crate) enum Phase {
     FindContacts,
     Separate,
     Relax,
+    Solve,
 }
 
 /// Adds up time by phase.
@@ -90,6 +94,7 @@ impl<'a, 'b> Stopwatch<'a, 'b> {
             Phase::FindContacts => &mut seconds.narrow_phase,
             Phase::Separate => &mut seconds.separate,
             Phase::Relax => &mut seconds.relax,
+            Phase::Solve => &mut seconds.solve,
         };
         *sum += now - self.last;
         self.last = now;

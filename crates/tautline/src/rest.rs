@@ -71,7 +71,7 @@ pub(crate) fn put_to_sleep(
     dt: f32,
 ) {
     let reach = sleep.speed * sleep.seconds;
-    for body in bodies.iter_mut().filter(|body| body.is_awake()) {
+    for body in bodies.iter_mut().filter(|body| body.is_awake_matter()) {
         let positions = &particles.position[body.particles.clone()];
         let drifted = |(x, reference): (&Vec3, &Vec3)| x.distance_squared(*reference) > reach * reach;
         let rest = &mut body.rest;
@@ -84,7 +84,8 @@ pub(crate) fn put_to_sleep(
         }
     }
     let restless = |body: &Body| body.is_awake() && body.rest.still_for < sleep.seconds;
-    let mut may_sleep: Vec<bool> = bodies.iter().map(|body| body.is_awake() && !restless(body)).collect();
+    let mut may_sleep: Vec<bool> =
+        bodies.iter().map(|body| body.is_awake_matter() && !restless(body)).collect();
     for contact in contacts {
         let (a, b) = (contact.body_a as usize, contact.body_b as usize);
         may_sleep[a] &= !restless(&bodies[b]);

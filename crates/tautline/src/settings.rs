@@ -4,6 +4,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, positive, within};
+use crate::simd::Instructions;
 
 /// How a world is simulated.
 ///
@@ -30,6 +31,8 @@ pub struct Settings {
     pub broad_phase: BroadPhase,
     /// When resting bodies are put to sleep; `None` = never.
     pub sleep: Option<Sleep>,
+    /// Which instructions the solver of rigid bodies uses. The result is the same.
+    pub instructions: Instructions,
 }
 
 /// How the sticks of a body are relaxed (paper, 6.2).
@@ -98,6 +101,7 @@ impl Settings {
             damping: 0.0,
             broad_phase: BroadPhase::SortAndSweep,
             sleep: Some(Sleep { speed: 0.03, seconds: 0.5 }),
+            instructions: Instructions::Widest,
         }
     }
 

@@ -5,12 +5,13 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::body::{Body, Shape, Truss};
+use crate::body::{Body, Substance, Truss};
 use crate::collision::PairCache;
 use crate::error::Error;
 use crate::particles::Particles;
 use crate::settings::Settings;
 use crate::slots::Slots;
+use crate::solver::substep::RigidSolver;
 use crate::world::{Scratch, World};
 
 const MAGIC: [u8; 8] = *b"tautline";
@@ -78,7 +79,7 @@ impl World {
         let mut known: BTreeMap<*const Truss, u32> = BTreeMap::new();
         let mut truss_of_body = Vec::with_capacity(self.bodies.len());
         for body in &self.bodies {
-            let Shape::Truss { truss } = &body.shape else {
+            let Substance::Truss { truss } = &body.substance else {
                 truss_of_body.push(None);
                 continue;
             };
@@ -103,7 +104,7 @@ impl Stored {
         }
         let mut next = 0;
         for (body, &truss_index) in self.bodies.iter_mut().zip(&self.truss_of_body) {
-            if let Shape::Truss { truss } = &mut body.shape {
+            if let Substance::Truss { truss } = &mut body.substance {
                 let found = truss_index.and_then(|index| trusses.get(index as usize));
                 *truss = Arc::clone(found.ok_or_else(|| refuse("a body's truss is missing"))?);
             }
@@ -114,7 +115,8 @@ impl Stored {
             return Err(refuse("its particles or pairs disagree with its bodies"));
         }
         let Self { settings, particles, bodies, slots, pairs, time, .. } = self;
-        Ok(World { settings, particles, bodies, slots, pairs, time, scratch: Scratch::default() })
+        let rigid = RigidSolver::default();
+        Ok(World { settings, particles, bodies, slots, pairs, rigid, time, scratch: Scratch::default() })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use crate::body::{Body, Shape};
+use crate::body::{Body, Substance};
 use crate::collision::{Aabb, Candidate, Scene, find_pairs};
 use crate::error::{Error, within};
 use crate::particles::VerletStep;
@@ -35,15 +35,49 @@ impl World {
         within("dt", dt, 1e-7, 1.0, "a time from 1e-7 to 1 (s)")?;
         let mut report = StepReport::default();
         let mut watch = Stopwatch::start(clock);
-        for _ in 0..self.settings.substeps {
-            self.substep(dt / self.settings.substeps as f32, &mut report, &mut watch);
+        let h = dt / self.settings.substeps as f32;
+        self.begin_rigid(h, &mut report, &mut watch);
+        let has_matter = self.bodies.iter().any(Body::is_awake_matter);
+        for index in 0..self.settings.substeps {
+            self.rigid.substep(&self.settings, h, index == 0);
+            watch.lap(Phase::Solve);
+            if has_matter {
+                self.substep(h, &mut report, &mut watch);
+            }
         }
+        self.finish_rigid(h, &mut report);
+        watch.lap(Phase::Integrate);
         self.rest(dt);
-        self.particles.force.fill(Vec3::ZERO);
+        self.particles.clear_forces();
         self.time += f64::from(dt);
         report.seconds = watch.finish();
         report.awake_bodies = self.bodies.iter().filter(|body| body.is_awake()).count();
         Ok(report)
+    }
+
+    /// Finds where rigid bodies touch, once for all substeps.
+    fn begin_rigid(&mut self, h: f32, report: &mut StepReport, watch: &mut Stopwatch<'_, '_>) {
+        let Self { rigid, bodies, particles, settings, .. } = self;
+        rigid.begin(bodies, particles, settings, h);
+        watch.lap(Phase::FindPairs);
+        report.contacts += rigid.find_contacts(bodies, settings, h);
+        report.pairs += rigid.pair_count();
+        watch.lap(Phase::FindContacts);
+        rigid.prepare(settings, h);
+        watch.lap(Phase::Solve);
+    }
+
+    /// Writes what the substeps made of the rigid bodies to their particles. What is lost is frozen where it was.
+    fn finish_rigid(&mut self, h: f32, report: &mut StepReport) {
+        let Self { rigid, bodies, particles, settings, slots, .. } = self;
+        for lost in rigid.finish(bodies, particles, settings, h) {
+            let body = &mut bodies[lost.body];
+            particles.displacement[body.particles.clone()].fill(Vec3::ZERO);
+            particles.inverse_mass[body.particles.clone()].fill(0.0);
+            body.freeze();
+            rigid.invalidate();
+            report.faults.push(Fault { body: slots.handle(lost.body), particle: lost.particle });
+        }
     }
 
     fn substep(&mut self, h: f32, report: &mut StepReport, watch: &mut Stopwatch<'_, '_>) {
@@ -79,7 +113,7 @@ impl World {
         let damping = 1.0 / (1.0 + self.settings.damping * h);
         let store = &mut self.particles;
         self.scratch.start.clone_from(&store.position);
-        for body in self.bodies.iter_mut().filter(|body| body.is_awake()) {
+        for body in self.bodies.iter_mut().filter(|body| body.is_awake_matter()) {
             let ratio = h / body.displacement_time();
             let step = VerletStep { keep: ratio * damping, kick: h * (h + body.previous_step) / 2.0 };
             body.previous_step = h;
@@ -105,7 +139,7 @@ impl World {
         let scratch = &mut self.scratch;
         scratch.candidates.clear();
         for (index, body) in self.bodies.iter().enumerate() {
-            if matches!(body.shape, Shape::HalfSpace(_)) {
+            if matches!(body.substance, Substance::HalfSpace(_) | Substance::Rigid(_)) {
                 continue;
             }
             let bounds = Aabb::around(&self.particles.position[body.particles.clone()], body.reach());
@@ -154,7 +188,7 @@ impl World {
     /// Freezes bodies with a non-finite particle where they were when the substep began.
     fn contain_faults(&mut self, report: &mut StepReport) {
         let store = &mut self.particles;
-        for (index, body) in self.bodies.iter_mut().enumerate().filter(|(_, body)| body.is_awake()) {
+        for (index, body) in self.bodies.iter_mut().enumerate().filter(|(_, body)| body.is_awake_matter()) {
             let range = body.particles.clone();
             let sound = |i: usize| store.position[i].is_finite() && store.displacement[i].is_finite();
             if let Some(particle) = range.clone().position(|i| !sound(i)) {

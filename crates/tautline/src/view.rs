@@ -2,7 +2,7 @@
 
 use glam::{Quat, Vec3};
 
-use crate::body::{Body, BodyKind, Shape, Truss};
+use crate::body::{Body, BodyKind, Frame, Substance, Truss, rigid_motion};
 use crate::constraint::Stick;
 use crate::error::Error;
 use crate::particles::Particles;
@@ -50,42 +50,58 @@ impl<'a> BodyView<'a> {
 
     /// The triangles of its surface over its particles; empty for ropes and half-spaces.
     pub fn triangles(&self) -> &'a [[u32; 3]] {
-        match &self.body.shape {
-            Shape::Truss { truss } => truss.triangles(),
-            Shape::Deformable(deformable) => &deformable.triangles,
-            Shape::HalfSpace(_) => &[],
+        match &self.body.substance {
+            Substance::Rigid(rigid) => rigid.shape.triangles(),
+            Substance::Truss { truss } => truss.triangles(),
+            Substance::Deformable(deformable) => &deformable.triangles,
+            Substance::Rigid(_) | Substance::HalfSpace(_) => &[],
         }
     }
 
     /// Its sticks, over its particles.
     pub fn sticks(&self) -> &'a [Stick] {
-        match &self.body.shape {
-            Shape::Truss { truss } => truss.sticks(),
-            Shape::Deformable(deformable) => &deformable.sticks,
-            Shape::HalfSpace(_) => &[],
+        match &self.body.substance {
+            Substance::Truss { truss } => truss.sticks(),
+            Substance::Deformable(deformable) => &deformable.sticks,
+            Substance::Rigid(_) | Substance::HalfSpace(_) => &[],
         }
     }
 
     /// Its shape, if it is rigid.
     pub fn truss(&self) -> Option<&'a Truss> {
-        match &self.body.shape {
-            Shape::Truss { truss } => Some(truss),
-            Shape::Deformable(_) | Shape::HalfSpace(_) => None,
+        match &self.body.substance {
+            Substance::Truss { truss } => Some(truss),
+            Substance::Rigid(_) | Substance::Deformable(_) | Substance::HalfSpace(_) => None,
         }
     }
 
     /// Unit normal out of the solid and offset (m) along it, if it is a half-space.
     pub fn plane(&self) -> Option<(Vec3, f32)> {
-        match &self.body.shape {
-            Shape::HalfSpace(wall) => Some((wall.normal, wall.offset)),
-            Shape::Truss { .. } | Shape::Deformable(_) => None,
+        match &self.body.substance {
+            Substance::HalfSpace(wall) => Some((wall.normal, wall.offset)),
+            Substance::Rigid(_) | Substance::Truss { .. } | Substance::Deformable(_) => None,
         }
     }
 
     /// Of a rigid body, the mean of its particles (m) and the rotation that best carries its shape's rest
     /// positions into its particles.
     pub fn pose(&self) -> Option<(Vec3, Quat)> {
-        self.truss().map(|truss| truss.pose(self.positions()))
+        match &self.body.substance {
+            Substance::Rigid(rigid) => Some(Frame::of_particles(self.positions()).pose(&rigid.shape)),
+            Substance::Truss { truss } => Some(truss.pose(self.positions())),
+            Substance::Deformable(_) | Substance::HalfSpace(_) => None,
+        }
+    }
+
+    /// Angular velocity in the world's frame, in rad/s, of a rigid body of four particles: its mean over the last
+    /// substep. Zero for any other.
+    pub fn angular_velocity(&self) -> Vec3 {
+        let Substance::Rigid(rigid) = &self.body.substance else { return Vec3::ZERO };
+        let (x, range) = (self.positions(), self.body.particles.clone());
+        let frame = Frame::of_particles(x);
+        let displacements = &self.particles.displacement[range];
+        let (_, angular) = rigid_motion(&frame, x, displacements, rigid.inertia_per_mass());
+        angular / self.body.displacement_time()
     }
 
     /// Σ m x / Σ m, in m; the origin for a half-space.
@@ -105,7 +121,7 @@ impl<'a> BodyView<'a> {
 
     /// Coulomb's coefficient of friction.
     pub fn friction(&self) -> f32 {
-        self.body.friction
+        self.body.surface.friction
     }
 
     /// Whether it never moves.

@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
-use crate::body::{Body, BodyDescription, BuiltDeformable, HalfSpace, Shape, TrussBody};
+use crate::body::{
+    Body, BodyDescription, BuiltDeformable, HalfSpace, Motion, RigidBody, Substance, Surface, TrussBody,
+};
 use crate::collision::{Candidate, Contact, NarrowPhase, PairCache};
 use crate::error::{Error, coordinates, positive, within};
 use crate::particles::Particles;
@@ -12,6 +14,7 @@ use crate::rest::wake_around;
 use crate::settings::Settings;
 use crate::slots::Slots;
 use crate::solver::paper::Moved;
+use crate::solver::substep::RigidSolver;
 
 pub use crate::slots::BodyHandle;
 
@@ -39,6 +42,7 @@ pub struct World {
     pub(crate) bodies: Vec<Body>,
     pub(crate) slots: Slots,
     pub(crate) pairs: PairCache,
+    pub(crate) rigid: RigidSolver,
     /// In s.
     pub(crate) time: f64,
     pub(crate) scratch: Scratch,
@@ -71,6 +75,7 @@ impl World {
             bodies: Vec::new(),
             slots: Slots::default(),
             pairs: PairCache::default(),
+            rigid: RigidSolver::default(),
             time: 0.0,
             scratch: Scratch::default(),
         })
@@ -104,6 +109,7 @@ impl World {
     /// What is wrong with the description, by field; the world is as before.
     pub fn add(&mut self, body: impl Into<BodyDescription>) -> Result<BodyHandle, Error> {
         match body.into() {
+            BodyDescription::Rigid(body) => self.add_rigid(&body),
             BodyDescription::Truss(body) => self.add_truss(body),
             BodyDescription::HalfSpace(wall) => self.add_half_space(wall),
             BodyDescription::Cloth(cloth) => {
@@ -117,6 +123,23 @@ impl World {
         }
     }
 
+    fn add_rigid(&mut self, body: &RigidBody) -> Result<BodyHandle, Error> {
+        let rigid = body.build()?;
+        let frame = body.frame();
+        let positions = frame.particles(rigid.spread());
+        let is_dynamic = rigid.traits.motion == Motion::Dynamic;
+        let is_fixed = rigid.traits.motion == Motion::Fixed;
+        let range = self.particles.extend(&positions, rigid.mass / 4.0, !is_dynamic);
+        if !is_fixed {
+            for i in range.clone() {
+                let arm = self.particles.position[i] - frame.center;
+                self.particles.displacement[i] = body.velocity + body.angular_velocity.cross(arm);
+            }
+        }
+        self.rigid.invalidate();
+        Ok(self.push(Body::new(range, Substance::Rigid(Box::new(rigid)), body.surface, is_fixed)))
+    }
+
     fn add_truss(&mut self, body: TrussBody) -> Result<BodyHandle, Error> {
         body.validate()?;
         let positions = body.positions();
@@ -128,14 +151,14 @@ impl World {
                 self.particles.displacement[i] = body.velocity + body.angular_velocity.cross(arm);
             }
         }
-        let shape = Shape::Truss { truss: Arc::clone(&body.truss) };
-        Ok(self.push(Body::new(range, shape, body.friction, body.fixed)))
+        let shape = Substance::Truss { truss: Arc::clone(&body.truss) };
+        Ok(self.push(Body::new(range, shape, Surface::with_friction(body.friction), body.fixed)))
     }
 
     fn add_half_space(&mut self, wall: HalfSpace) -> Result<BodyHandle, Error> {
         let wall = wall.validated()?;
         let range = self.particles.len()..self.particles.len();
-        Ok(self.push(Body::new(range, Shape::HalfSpace(wall), wall.friction, true)))
+        Ok(self.push(Body::new(range, Substance::HalfSpace(wall), wall.surface, true)))
     }
 
     fn add_deformable(&mut self, built: BuiltDeformable) -> Result<BodyHandle, Error> {
@@ -147,7 +170,12 @@ impl World {
             self.particles.inverse_mass[particle] = 0.0;
             self.particles.displacement[particle] = Vec3::ZERO;
         }
-        Ok(self.push(Body::new(range, Shape::Deformable(Box::new(built.body)), built.friction, false)))
+        Ok(self.push(Body::new(
+            range,
+            Substance::Deformable(Box::new(built.body)),
+            Surface::with_friction(built.friction),
+            false,
+        )))
     }
 
     fn push(&mut self, body: Body) -> BodyHandle {
@@ -168,6 +196,7 @@ impl World {
         self.bodies.remove(index);
         self.slots.remove(index);
         self.pairs.remove_body(index as u32);
+        self.rigid.remove_body(index);
         for body in &mut self.bodies[index..] {
             body.particles = body.particles.start - range.len()..body.particles.end - range.len();
         }
@@ -227,6 +256,7 @@ impl World {
         for i in range {
             self.particles.force[i] += force * (self.particles.mass[i] / total);
         }
+        self.particles.is_forced = true;
         self.wake_body(index);
         Ok(())
     }
@@ -239,6 +269,7 @@ impl World {
         coordinates("force", force)?;
         let (index, i) = self.particle(handle, particle)?;
         self.particles.force[i] += force;
+        self.particles.is_forced = true;
         self.wake_body(index);
         Ok(())
     }

@@ -5,7 +5,9 @@ mod cloth;
 mod deformable;
 mod half_space;
 mod pose;
+mod rigid;
 mod rope;
+mod surface;
 mod truss;
 
 use std::ops::Range;
@@ -18,14 +20,20 @@ use crate::error::Error;
 
 pub use cloth::{Cloth, Corner};
 pub use half_space::HalfSpace;
+pub use rigid::{CollisionGroups, Motion, RigidBody};
 pub use rope::Rope;
+pub use surface::{Combine, Surface};
 pub use truss::{Truss, TrussBody};
 
 pub(crate) use deformable::{BuiltDeformable, Deformable};
+pub(crate) use rigid::{CORNERS, Frame, Rigid, rigid_motion};
+pub(crate) use surface::Touch;
 
 /// What a body is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BodyKind {
+    /// A rigid body of four particles.
+    Rigid,
     /// A rigid body held together by sticks.
     Truss,
     /// A sheet.
@@ -40,6 +48,8 @@ pub enum BodyKind {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum BodyDescription {
+    /// A rigid body of four particles.
+    Rigid(RigidBody),
     /// A rigid body held together by sticks.
     Truss(TrussBody),
     /// A sheet.
@@ -59,14 +69,14 @@ macro_rules! describe {
         })*
     };
 }
-describe!(TrussBody => Truss, Cloth => Cloth, Rope => Rope, HalfSpace => HalfSpace);
+describe!(RigidBody => Rigid, TrussBody => Truss, Cloth => Cloth, Rope => Rope, HalfSpace => HalfSpace);
 
 /// A body in a world.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Body {
     pub(crate) particles: Range<usize>,
-    pub(crate) shape: Shape,
-    pub(crate) friction: f32,
+    pub(crate) substance: Substance,
+    pub(crate) surface: Surface,
     /// Whether it can move at all; pins hold single particles.
     pub(crate) fixed: bool,
     /// h⁻, in s: the substep its displacements belong to; 0 = newly placed, they are velocities in m/s.
@@ -76,7 +86,8 @@ pub(crate) struct Body {
 
 /// What a body is made of besides particles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) enum Shape {
+pub(crate) enum Substance {
+    Rigid(Box<Rigid>),
     Truss {
         /// Shared between bodies; a snapshot stores each once, beside the bodies.
         #[serde(skip)]
@@ -97,18 +108,37 @@ pub(crate) struct Rest {
 }
 
 impl Body {
-    pub(crate) fn new(particles: Range<usize>, shape: Shape, friction: f32, fixed: bool) -> Self {
+    pub(crate) fn new(particles: Range<usize>, substance: Substance, surface: Surface, fixed: bool) -> Self {
         let rest = Rest { asleep: false, still_for: 0.0, reference: Vec::new() };
-        Self { particles, shape, friction, fixed, previous_step: 0.0, rest }
+        Self { particles, substance, surface, fixed, previous_step: 0.0, rest }
     }
 
     pub(crate) fn kind(&self) -> BodyKind {
-        match &self.shape {
-            Shape::Truss { .. } => BodyKind::Truss,
-            Shape::Deformable(deformable) if deformable.is_rope() => BodyKind::Rope,
-            Shape::Deformable(_) => BodyKind::Cloth,
-            Shape::HalfSpace(_) => BodyKind::HalfSpace,
+        match &self.substance {
+            Substance::Rigid(_) => BodyKind::Rigid,
+            Substance::Truss { .. } => BodyKind::Truss,
+            Substance::Deformable(deformable) if deformable.is_rope() => BodyKind::Rope,
+            Substance::Deformable(_) => BodyKind::Cloth,
+            Substance::HalfSpace(_) => BodyKind::HalfSpace,
         }
+    }
+
+    /// Whether it is a rigid body of four particles, which the substep solver moves.
+    pub(crate) fn is_rigid(&self) -> bool {
+        matches!(self.substance, Substance::Rigid(_))
+    }
+
+    /// Holds it where it is for good.
+    pub(crate) fn freeze(&mut self) {
+        self.fixed = true;
+        if let Substance::Rigid(rigid) = &mut self.substance {
+            rigid.traits.motion = Motion::Fixed;
+        }
+    }
+
+    /// Whether it is awake and made of particles that move by themselves.
+    pub(crate) fn is_awake_matter(&self) -> bool {
+        self.is_awake() && !self.is_rigid()
     }
 
     /// Whether a step moves it.
@@ -119,7 +149,7 @@ impl Body {
     /// Fits the sphere tree of a deformable body to its particles, out of those of the world; those of rigid
     /// bodies follow lazily.
     pub(crate) fn refit_tree(&mut self, positions: &[Vec3]) {
-        if let Shape::Deformable(deformable) = &mut self.shape {
+        if let Substance::Deformable(deformable) = &mut self.substance {
             // It fails only for a range that is too short, which a body's own never is.
             let _ = deformable.tree.refit(&positions[self.particles.clone()]);
         }
@@ -127,9 +157,9 @@ impl Body {
 
     /// How far beyond its particles it may touch, in m.
     pub(crate) fn reach(&self) -> f32 {
-        match &self.shape {
-            Shape::Deformable(deformable) => deformable.reach(),
-            Shape::Truss { .. } | Shape::HalfSpace(_) => 0.0,
+        match &self.substance {
+            Substance::Deformable(deformable) => deformable.reach(),
+            Substance::Rigid(_) | Substance::Truss { .. } | Substance::HalfSpace(_) => 0.0,
         }
     }
 
@@ -141,17 +171,20 @@ impl Body {
     /// Checks a body from untrusted bytes, whose particles should begin at `start`.
     pub(crate) fn validate(&self, start: usize) -> Result<(), Error> {
         let count = self.particles.len();
-        match &self.shape {
-            Shape::Truss { .. } => {}
-            Shape::Deformable(deformable) => deformable.validate(count)?,
-            Shape::HalfSpace(wall) => wall.validated().map(|_| ())?,
+        match &self.substance {
+            Substance::Rigid(rigid) => rigid.validate()?,
+            Substance::Truss { .. } => {}
+            Substance::Deformable(deformable) => deformable.validate(count)?,
+            Substance::HalfSpace(wall) => wall.validated().map(|_| ())?,
         }
-        let size_fits = match &self.shape {
-            Shape::Truss { truss } => truss.rest_positions().len() == count && count > 0,
-            Shape::Deformable(_) => count > 0,
-            Shape::HalfSpace(_) => count == 0 && self.fixed,
+        let size_fits = match &self.substance {
+            Substance::Rigid(_) => count == 4,
+            Substance::Truss { truss } => truss.rest_positions().len() == count && count > 0,
+            Substance::Deformable(_) => count > 0,
+            Substance::HalfSpace(_) => count == 0 && self.fixed,
         };
-        let numbers = [self.friction, self.previous_step, self.rest.still_for];
+        self.surface.validate()?;
+        let numbers = [self.previous_step, self.rest.still_for];
         let sound = size_fits
             && self.particles.start == start
             && self.particles.end >= start

@@ -1,6 +1,7 @@
 //! Which bodies touch, and where. Moves nothing.
 
 mod broad_phase;
+pub(crate) mod bvh;
 mod contact;
 mod narrow_phase;
 mod pair;

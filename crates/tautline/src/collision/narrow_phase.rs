@@ -5,7 +5,7 @@ use glam::Vec3;
 use super::contact::{Contact, Patch};
 use super::pair::Pair;
 use super::solid::{Plane, Solid, nearest_surface};
-use crate::body::{Body, Deformable, HalfSpace, Shape, Truss};
+use crate::body::{Body, Deformable, HalfSpace, Substance, Truss};
 use crate::geometry::distance;
 use crate::geometry::epa::Epa;
 use crate::geometry::sphere_tree::{DescentStack, WrappedSpheres, descend_pair, descend_self};
@@ -43,7 +43,7 @@ impl<'a> Scene<'a> {
 
     /// The geometric mean of both coefficients.
     fn friction(&self, a: u32, b: u32) -> f32 {
-        (self.bodies[a as usize].friction * self.bodies[b as usize].friction).sqrt()
+        self.bodies[a as usize].surface.against(&self.bodies[b as usize].surface).friction
     }
 }
 
@@ -65,7 +65,7 @@ impl NarrowPhase {
             self.pair_contacts(scene, pair, contacts);
         }
         for (index, body) in scene.bodies.iter().enumerate() {
-            if let Shape::Deformable(deformable) = &body.shape
+            if let Substance::Deformable(deformable) = &body.substance
                 && body.is_awake()
             {
                 self.self_contacts(scene, index as u32, deformable, contacts);
@@ -97,15 +97,15 @@ impl NarrowPhase {
 
     /// Contacts of a pair of which one body at least is deformable.
     fn pair_contacts(&mut self, scene: Scene<'_>, pair: &Pair, contacts: &mut Vec<Contact>) {
-        let shape = |body: u32| &scene.bodies[body as usize].shape;
+        let shape = |body: u32| &scene.bodies[body as usize].substance;
         match (shape(pair.a), shape(pair.b)) {
-            (Shape::Deformable(a), Shape::Deformable(b)) => {
+            (Substance::Deformable(a), Substance::Deformable(b)) => {
                 self.deformable_contacts(scene, pair, [a, b], contacts);
             }
-            (Shape::Deformable(a), Shape::Truss { truss: b }) => {
+            (Substance::Deformable(a), Substance::Truss { truss: b }) => {
                 self.mixed_contacts(scene, (pair.a, a), (pair.b, b), contacts);
             }
-            (Shape::Truss { truss: a }, Shape::Deformable(b)) => {
+            (Substance::Truss { truss: a }, Substance::Deformable(b)) => {
                 self.mixed_contacts(scene, (pair.b, b), (pair.a, a), contacts);
             }
             _ => {}
@@ -193,8 +193,8 @@ const WORTHWHILE: usize = 256;
 /// Rigid against rigid: the outermost spheres, then GJK and the hit face.
 fn rigid_contact(scene: Scene<'_>, pair: &mut Pair, epa: &mut Epa) -> Option<Contact> {
     let bodies = [pair.a, pair.b];
-    let [Shape::Truss { truss: truss_a }, Shape::Truss { truss: truss_b }] =
-        bodies.map(|body| &scene.bodies[body as usize].shape)
+    let [Substance::Truss { truss: truss_a }, Substance::Truss { truss: truss_b }] =
+        bodies.map(|body| &scene.bodies[body as usize].substance)
     else {
         return None;
     };
@@ -248,14 +248,14 @@ fn leaf_contact(
 /// Every particle behind a plane is a contact: a vertex on a face of infinite mass.
 fn half_space_contacts(scene: Scene<'_>, contacts: &mut Vec<Contact>) {
     let walls = || {
-        scene.bodies.iter().enumerate().filter_map(|(index, body)| match &body.shape {
-            Shape::HalfSpace(wall) => Some((index as u32, wall)),
+        scene.bodies.iter().enumerate().filter_map(|(index, body)| match &body.substance {
+            Substance::HalfSpace(wall) => Some((index as u32, wall)),
             _ => None,
         })
     };
-    for (index, body) in scene.bodies.iter().enumerate().filter(|(_, body)| body.is_awake()) {
-        let thickness = match &body.shape {
-            Shape::Deformable(deformable) => deformable.thickness,
+    for (index, body) in scene.bodies.iter().enumerate().filter(|(_, body)| body.is_awake_matter()) {
+        let thickness = match &body.substance {
+            Substance::Deformable(deformable) => deformable.thickness,
             _ => 0.0,
         };
         for (wall_index, wall) in walls() {

@@ -6,6 +6,8 @@ pub mod distance;
 pub mod epa;
 pub mod feature;
 pub mod gjk;
+pub(crate) mod manifold;
+pub(crate) mod query;
 pub mod simplex;
 mod sphere;
 pub mod sphere_tree;

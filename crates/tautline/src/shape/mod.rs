@@ -9,6 +9,8 @@ mod polytope;
 mod surface;
 mod validate;
 
+use std::sync::Arc;
+
 use glam::{DVec3, Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
@@ -121,6 +123,21 @@ impl Shape {
     /// a share of its volume; 0 for other shapes. What sticks out counts also where another part covers it.
     pub fn hull_excess(&self) -> f32 {
         self.hull_excess
+    }
+
+    /// Without parts: until a snapshot's bodies are given their shapes.
+    pub(crate) fn placeholder() -> Arc<Self> {
+        Arc::new(Self {
+            parts: Vec::new(),
+            volume: 0.0,
+            second_moments: DVec3::ZERO,
+            frame: Frame::IDENTITY,
+            reach: 0.0,
+            inner_radius: 0.0,
+            hull_excess: 0.0,
+            display: TriMesh::default(),
+            surface: None,
+        })
     }
 
     pub(crate) fn parts(&self) -> &[Part] {

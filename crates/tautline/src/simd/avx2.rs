@@ -99,13 +99,9 @@ impl Lanes for Avx2 {
     fn transpose(rows: [Self; LANES]) -> [Self; LANES] {
         // Swap the off-diagonal 4 × 4 quarters, then transpose each.
         let [a, b, c, d, e, f, g, h] = rows;
-        let low = |x: Self, y: Self| unsafe { _mm256_permute2f128_ps::<0x20>(x.0, y.0) };
-        let high = |x: Self, y: Self| unsafe { _mm256_permute2f128_ps::<0x31>(x.0, y.0) };
-        let left = transpose_quarters([low(a, e), low(b, f), low(c, g), low(d, h)]);
-        let right = transpose_quarters([high(a, e), high(b, f), high(c, g), high(d, h)]);
-        let [a, b, c, d] = left;
-        let [e, f, g, h] = right;
-        [a, b, c, d, e, f, g, h].map(Self)
+        let [p, q, r, s] = transpose_quarters([low(a, e), low(b, f), low(c, g), low(d, h)]);
+        let [t, u, v, w] = transpose_quarters([high(a, e), high(b, f), high(c, g), high(d, h)]);
+        [Self(p), Self(q), Self(r), Self(s), Self(t), Self(u), Self(v), Self(w)]
     }
     // `maxps` does exactly what the trait asks for: of equal numbers the second.
     #[inline(always)]
@@ -117,17 +113,47 @@ impl Lanes for Avx2 {
         Self(unsafe { _mm256_min_ps(self.0, other.0) })
     }
     #[inline(always)]
-    fn gather(rows: &[Row], index: &[u32; LANES]) -> [Self; LANES] {
+    fn gather(rows: [&Row; LANES]) -> [Self; LANES] {
         // Halves of two rows side by side, which saves half the shuffles of a whole transposition.
-        let [a, b, c, d, e, f, g, h] = index.map(|i| &rows[i as usize].0);
-        let pair = |x: &[f32; LANES], y: &[f32; LANES], at: usize| unsafe {
-            let low = _mm256_castps128_ps256(_mm_load_ps(x[at..at + 4].as_ptr()));
-            _mm256_insertf128_ps::<1>(low, _mm_load_ps(y[at..at + 4].as_ptr()))
-        };
-        let half =
-            |at: usize| transpose_quarters([pair(a, e, at), pair(b, f, at), pair(c, g, at), pair(d, h, at)]);
-        let ([p, q, r, s], [t, u, v, w]) = (half(0), half(4));
-        [p, q, r, s, t, u, v, w].map(Self)
+        let [a, b, c, d, e, f, g, h] = rows;
+        let [p, q, r, s] = transpose_quarters([
+            half_rows::<0>(a, e),
+            half_rows::<0>(b, f),
+            half_rows::<0>(c, g),
+            half_rows::<0>(d, h),
+        ]);
+        let [t, u, v, w] = transpose_quarters([
+            half_rows::<4>(a, e),
+            half_rows::<4>(b, f),
+            half_rows::<4>(c, g),
+            half_rows::<4>(d, h),
+        ]);
+        [Self(p), Self(q), Self(r), Self(s), Self(t), Self(u), Self(v), Self(w)]
+    }
+}
+
+/// The lower halves of two.
+#[inline(always)]
+fn low(x: Avx2, y: Avx2) -> __m256 {
+    // SAFETY: see the module's documentation.
+    unsafe { _mm256_permute2f128_ps::<0x20>(x.0, y.0) }
+}
+
+/// The upper halves of two.
+#[inline(always)]
+fn high(x: Avx2, y: Avx2) -> __m256 {
+    // SAFETY: see the module's documentation.
+    unsafe { _mm256_permute2f128_ps::<0x31>(x.0, y.0) }
+}
+
+/// Four numbers of two rows each, the first or the last four.
+#[inline(always)]
+fn half_rows<const AT: usize>(x: &Row, y: &Row) -> __m256 {
+    let (x, y): (&[f32], &[f32]) = (&x.0[AT..AT + 4], &y.0[AT..AT + 4]);
+    // SAFETY: see the module's documentation; a row is aligned to 32 bytes, its half to 16.
+    unsafe {
+        let low = _mm256_castps128_ps256(_mm_load_ps(x.as_ptr()));
+        _mm256_insertf128_ps::<1>(low, _mm_load_ps(y.as_ptr()))
     }
 }
 

@@ -73,17 +73,20 @@ pub(crate) trait Lanes:
         other.greater(self).select(self, other)
     }
 
-    /// The rows numbered `index`, as columns: lane `i` of the result's entry `k` is number `k` of row `index[i]`.
+    /// Rows as columns: lane `i` of the result's entry `k` is number `k` of row `i`.
     #[inline(always)]
-    fn gather(rows: &[Row], index: &[u32; LANES]) -> [Self; LANES] {
-        Self::transpose(index.map(|i| Self::load(&rows[i as usize])))
+    fn gather(rows: [&Row; LANES]) -> [Self; LANES] {
+        let [a, b, c, d, e, f, g, h] = rows;
+        let (a, b, c, d) = (Self::load(a), Self::load(b), Self::load(c), Self::load(d));
+        Self::transpose([a, b, c, d, Self::load(e), Self::load(f), Self::load(g), Self::load(h)])
     }
 
-    /// The reverse of [`Lanes::gather`]. Of equal indices the last lane's row stays.
+    /// The reverse: the rows numbered `index` out of columns. Of equal indices the last lane's row stays.
     #[inline(always)]
     fn scatter(columns: [Self; LANES], rows: &mut [Row], index: &[u32; LANES]) {
-        for (row, &i) in Self::transpose(columns).into_iter().zip(index) {
-            row.store(&mut rows[i as usize]);
+        let lanes = Self::transpose(columns);
+        for i in 0..LANES {
+            lanes[i].store(&mut rows[index[i] as usize]);
         }
     }
 
@@ -98,11 +101,20 @@ pub(crate) trait Lanes:
     }
 }
 
+/// The rows of a slice with these numbers.
+#[inline(always)]
+pub(crate) fn rows_at<'a>(rows: &'a [Row], index: &[u32; LANES]) -> [&'a Row; LANES] {
+    let [a, b, c, d, e, f, g, h] = *index;
+    let (a, b, c, d) = (&rows[a as usize], &rows[b as usize], &rows[c as usize], &rows[d as usize]);
+    [a, b, c, d, &rows[e as usize], &rows[f as usize], &rows[g as usize], &rows[h as usize]]
+}
+
 /// Work to be done with some instruction set.
 pub(crate) trait Kernel {
     type Output;
     /// Has to be `#[inline(always)]`, as all that it calls in its hot loops: else it is compiled without the
-    /// instructions it was dispatched to.
+    /// instructions it was dispatched to. A closure cannot be: hot loops have none that works on lanes, and no
+    /// `array::map`.
     fn run<L: Lanes>(self) -> Self::Output;
 }
 
@@ -133,8 +145,8 @@ mod tests {
             let mut out = vec![a + b, a - b, a * b, a / b, -a, (a * a).sqrt(), a.max(b), a.min(b)];
             out.extend([a.greater(b).and(b), a.equal(b).select(a, b), L::splat(a.largest())]);
             out.push(L::splat(a.greater(b).bits() as f32));
-            let index = [3, 1, 4, 0, 5, 2, 7, 6];
-            let columns = L::gather(&rows, &index);
+            let index = [3_u32, 1, 4, 0, 5, 2, 7, 6];
+            let columns = L::gather(index.map(|i| &rows[i as usize]));
             out.extend(columns);
             let mut scattered = [Row::ZERO; LANES];
             L::scatter(columns, &mut scattered, &index);

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use wide::{CmpEq, CmpGt, f32x4};
+use wide::f32x4;
 
 use super::{LANES, Lanes, Row};
 
@@ -78,13 +78,12 @@ impl Lanes for Portable {
         let top_right = f32x4::transpose([a.1, b.1, c.1, d.1]);
         let bottom_left = f32x4::transpose([e.0, f.0, g.0, h.0]);
         let bottom_right = f32x4::transpose([e.1, f.1, g.1, h.1]);
-        std::array::from_fn(|k| {
-            if k < 4 {
-                Self(top_left[k], bottom_left[k])
-            } else {
-                Self(top_right[k - 4], bottom_right[k - 4])
-            }
-        })
+        let mut columns = [Self(top_left[0], bottom_left[0]); LANES];
+        for k in 0..4 {
+            columns[k] = Self(top_left[k], bottom_left[k]);
+            columns[k + 4] = Self(top_right[k], bottom_right[k]);
+        }
+        columns
     }
     // On x86 exactly what the trait asks for (of equal numbers the second) in one instruction.
     #[cfg(target_feature = "sse")]

@@ -1,7 +1,7 @@
 //! Iterative relaxation (paper, 6.2): each stick is set to its length in turn, a few sweeps over.
 
 use super::Moved;
-use crate::body::{Body, Deformable, Shape};
+use crate::body::{Body, Deformable, Substance};
 use crate::constraint::{
     Angle, Bending, Stick, angle_gradient, bending_gradient, multiplier_step, stick_scale,
 };
@@ -64,15 +64,17 @@ struct Task<'a> {
 impl Task<'_> {
     fn relax(&mut self, settings: &Relaxation, h: f32) {
         let first = self.body.particles.start;
-        self.counts = match &mut self.body.shape {
-            Shape::Truss { truss } => {
+        self.counts = match &mut self.body.substance {
+            Substance::Truss { truss } => {
                 let moved = self.moved.filter(|_| settings.ordering == Ordering::ByDistance);
                 let list = moved.map(|moved| truss.ordered_list(moved.particle - first));
                 let order = list.as_deref().map_or(Order::AsBuilt, Order::Listed);
                 relax_sticks(&mut self.particles, truss.sticks(), order, settings)
             }
-            Shape::Deformable(deformable) => relax_deformable(&mut self.particles, deformable, settings, h),
-            Shape::HalfSpace(_) => Counts::default(),
+            Substance::Deformable(deformable) => {
+                relax_deformable(&mut self.particles, deformable, settings, h)
+            }
+            Substance::Rigid(_) | Substance::HalfSpace(_) => Counts::default(),
         };
     }
 }

@@ -1,0 +1,312 @@
+//! All pairs of boxes that overlap.
+
+use super::{ALL, Bvh, Node, Place};
+use crate::collision::Aabb;
+use crate::simd::{Instructions, Kernel, LANES, Lanes, run};
+
+/// The tree of the last search is kept until it takes this many times as many tests as when it was built.
+const WORN_OUT: f32 = 1.5;
+
+/// Bit 8 i + i for all lanes i.
+const DIAGONAL: u64 = 0x8040_2010_0804_0201;
+/// Bits 8 i + j for all lanes i < j.
+const ABOVE_DIAGONAL: u64 = 0x0080_c0e0_f0f8_fcfe;
+
+/// What [`overlapping_pairs`] keeps from call to call, to be faster. No result depends on it.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct PairSearch {
+    tree: Bvh,
+    /// How many tests the tree took when it was built; 0 if it has to be built anew.
+    tests_when_built: usize,
+    /// For every node of the tree one bit for each child in which something is movable.
+    movable: Vec<u8>,
+    stack: Vec<(Place, Place)>,
+    found: Vec<(u32, u32)>,
+    sorted: Vec<(u32, u32)>,
+    starts: Vec<u32>,
+}
+
+/// Writes the pairs (a, b), a < b, of boxes that overlap or touch, of which at least one is `movable`, ascending.
+///
+/// There are as many flags as boxes, and the boxes are finite.
+pub(crate) fn overlapping_pairs(
+    boxes: &[Aabb],
+    movable: &[bool],
+    instructions: Instructions,
+    search: &mut PairSearch,
+    pairs: &mut Vec<(u32, u32)>,
+) {
+    let is_kept = search.tests_when_built > 0 && search.tree.len() == boxes.len();
+    if is_kept {
+        search.tree.refit(boxes);
+    } else {
+        search.tree.build(boxes);
+    }
+    search.mark(movable);
+    let tests = run(instructions, SelfOverlap(search));
+    if !is_kept {
+        search.tests_when_built = tests;
+    } else if tests as f32 > WORN_OUT * search.tests_when_built as f32 {
+        search.tests_when_built = 0;
+    }
+    search.sort(boxes.len(), pairs);
+}
+
+impl PairSearch {
+    /// Marks what is movable in the tree.
+    fn mark(&mut self, movable: &[bool]) {
+        let Self { tree, movable: marks, .. } = self;
+        marks.clear();
+        for items in tree.order.indices().chunks(LANES) {
+            marks.push(bits(items.iter().map(|&item| movable[item as usize])));
+        }
+        for level in tree.levels.windows(2) {
+            for start in (level[0]..level[1]).step_by(LANES) {
+                let end = level[1].min(start + LANES);
+                let mark = bits(marks[start..end].iter().map(|&mark| mark != 0));
+                marks.push(mark);
+            }
+        }
+    }
+
+    /// By b, then by a without disturbing what is equal there, each time counting: several times faster than
+    /// comparing.
+    fn sort(&mut self, count: usize, pairs: &mut Vec<(u32, u32)>) {
+        let Self { found, sorted, starts, .. } = self;
+        count_sort(found, sorted, starts, count, |&(_, b)| b);
+        count_sort(sorted, pairs, starts, count, |&(a, _)| a);
+    }
+}
+
+fn bits(flags: impl Iterator<Item = bool>) -> u8 {
+    (0..).zip(flags).fold(0, |bits, (lane, flag)| bits | u8::from(flag) << lane)
+}
+
+/// Descends the tree against itself; returns how many times it tested two nodes.
+struct SelfOverlap<'a>(&'a mut PairSearch);
+
+impl Kernel for SelfOverlap<'_> {
+    type Output = usize;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> usize {
+        let PairSearch { tree, movable, stack, found, .. } = self.0;
+        found.clear();
+        stack.clear();
+        stack.extend(tree.root().map(|root| (root, root)));
+        let mut tests = 0;
+        while let Some((x, y)) = stack.pop() {
+            tests += 1;
+            let marks = [x, y].map(|place| u64::from(movable[tree.slot(place)]));
+            let mut hits = crossing::<L>(tree.node(x), tree.node(y)) & either(marks);
+            if x == y {
+                // Each pair once; a node also with itself.
+                hits &= if x.level == 1 { ABOVE_DIAGONAL } else { ABOVE_DIAGONAL | DIAGONAL };
+            }
+            while hits != 0 {
+                let bit = hits.trailing_zeros();
+                hits &= hits - 1;
+                let (below_x, below_y) = (x.child(bit / 8), y.child(bit % 8));
+                if x.level == 1 {
+                    let (a, b) = (tree.item(below_x), tree.item(below_y));
+                    found.push((a.min(b), a.max(b)));
+                } else {
+                    stack.push((below_x, below_y));
+                }
+            }
+        }
+        tests
+    }
+}
+
+/// Bit 8 i + j says whether child i of `x` overlaps child j of `y`.
+///
+/// All 64 tests, though a few could be spared: they cost less than a branch that cannot be foreseen.
+#[inline(always)]
+fn crossing<L: Lanes>(x: &Node, y: &Node) -> u64 {
+    (0..LANES).fold(0, |hits, i| hits | u64::from(y.overlapping::<L>(x.splat(i))) << (LANES * i))
+}
+
+/// Bit 8 i + j says whether bit i of `x` or bit j of `y` is set.
+#[inline(always)]
+fn either([x, y]: [u64; 2]) -> u64 {
+    // Bit i of x to the lowest bit of byte i, and from there to the whole byte.
+    let spread = (0..LANES).fold(0, |spread, i| spread | (x >> i & 1) << (LANES * i));
+    (spread * u64::from(ALL)) | (y * 0x0101_0101_0101_0101)
+}
+
+/// Copies pairs in the order of their `key`, which is under `count`; those with the same keep their order.
+fn count_sort(
+    from: &[(u32, u32)],
+    to: &mut Vec<(u32, u32)>,
+    starts: &mut Vec<u32>,
+    count: usize,
+    key: impl Fn(&(u32, u32)) -> u32,
+) {
+    starts.clear();
+    starts.resize(count, 0);
+    for pair in from {
+        starts[key(pair) as usize] += 1;
+    }
+    let mut start = 0;
+    for entry in starts.iter_mut() {
+        start += std::mem::replace(entry, start);
+    }
+    to.resize(from.len(), (0, 0));
+    for pair in from {
+        let place = &mut starts[key(pair) as usize];
+        to[*place as usize] = *pair;
+        *place += 1;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+    use proptest::prelude::*;
+
+    use super::super::tests::{SETS, boxes, noise, pile};
+    use super::*;
+
+    fn all_pairs(boxes: &[Aabb], movable: &[bool]) -> Vec<(u32, u32)> {
+        let mut pairs = Vec::new();
+        for b in 0..boxes.len() {
+            let touches = |&a: &usize| (movable[a] || movable[b]) && boxes[a].overlaps(&boxes[b]);
+            pairs.extend((0..b).filter(touches).map(|a| (a as u32, b as u32)));
+        }
+        pairs.sort_unstable();
+        pairs
+    }
+
+    proptest! {
+        #[test]
+        fn the_pairs_are_those_of_all_pairs(
+            boxes in boxes(200),
+            seed in any::<u32>(),
+            still in 0..4_u32,
+        ) {
+            let mut seed = seed;
+            let movable: Vec<bool> = boxes.iter().map(|_| noise(&mut seed) * 2.0 + 2.0 >= still as f32).collect();
+            for instructions in SETS {
+                let (mut search, mut pairs) = (PairSearch::default(), vec![(7, 7)]);
+                overlapping_pairs(&boxes, &movable, instructions, &mut search, &mut pairs);
+                prop_assert_eq!(&pairs, &all_pairs(&boxes, &movable));
+            }
+        }
+
+        #[test]
+        fn a_tree_that_is_kept_finds_the_same_pairs(
+            scenes in prop::collection::vec(boxes(60), 1..6),
+        ) {
+            let (mut search, mut pairs) = (PairSearch::default(), Vec::new());
+            let count = scenes.iter().map(Vec::len).min().unwrap_or(0);
+            for scene in &scenes {
+                // All of it in other places, or another number of boxes.
+                for boxes in [&scene[..count], &scene[..]] {
+                    let movable = vec![true; boxes.len()];
+                    overlapping_pairs(boxes, &movable, Instructions::Widest, &mut search, &mut pairs);
+                    prop_assert_eq!(&pairs, &all_pairs(boxes, &movable));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_hundred_boxes_in_one_place_all_overlap() {
+        let boxes = vec![Aabb::around(&[Vec3::ONE], 0.5); 100];
+        let mut pairs = Vec::new();
+        overlapping_pairs(&boxes, &[true; 100], Instructions::Widest, &mut PairSearch::default(), &mut pairs);
+        assert_eq!(pairs, all_pairs(&boxes, &[true; 100]));
+        assert_eq!(pairs.len(), 4950);
+    }
+
+    #[test]
+    fn a_large_pile_has_the_pairs_of_all_pairs() {
+        let boxes = pile(3000, 1);
+        let movable: Vec<bool> = (0..boxes.len()).map(|i| i % 3 > 0).collect();
+        let mut pairs = Vec::new();
+        overlapping_pairs(&boxes, &movable, Instructions::Widest, &mut PairSearch::default(), &mut pairs);
+        assert_eq!(pairs, all_pairs(&boxes, &movable));
+    }
+
+    /// Boxes that cannot move and overlap each other must not cost: they come in thousands, as tiles of a ground.
+    #[test]
+    fn still_boxes_are_not_searched() {
+        let boxes = pile(4096, 3);
+        let mut movable = vec![false; boxes.len()];
+        movable[17] = true;
+        let (mut search, mut pairs) = (PairSearch::default(), Vec::new());
+        overlapping_pairs(&boxes, &movable, Instructions::Widest, &mut search, &mut pairs);
+        assert!(search.tests_when_built < 100, "{}", search.tests_when_built);
+    }
+
+    /// A few hills and walls among small boxes, and one box lost far away, do not spoil the tree for the others.
+    #[test]
+    fn huge_and_far_boxes_cost_their_own_pairs_only() {
+        let mut boxes = pile(4096, 5);
+        let mut search = PairSearch::default();
+        let mut count_tests = |boxes: &[Aabb]| {
+            let mut pairs = Vec::new();
+            search.tests_when_built = 0;
+            overlapping_pairs(boxes, &vec![true; boxes.len()], Instructions::Widest, &mut search, &mut pairs);
+            (search.tests_when_built, pairs.len())
+        };
+        let (alone, pairs_alone) = count_tests(&boxes);
+        boxes.extend((0..4).map(|i| Aabb::around(&[Vec3::splat(8.0 * i as f32 - 8.0)], 50.0)));
+        boxes.push(Aabb::around(&[Vec3::splat(1e9)], 1.0));
+        let (together, pairs_together) = count_tests(&boxes);
+        // With all other groups each group with a huge box has to be tested.
+        assert_eq!(pairs_together, pairs_alone + 4 * 4096 + 6);
+        assert!(together < alone + 4 * 4096 / 8 * 5 / 4, "{alone} {together}");
+    }
+
+    /// The same boxes in no order.
+    fn shuffled(mut boxes: Vec<Aabb>, mut seed: u32) -> Vec<Aabb> {
+        for i in (1..boxes.len()).rev() {
+            boxes.swap(i, ((noise(&mut seed) * 0.5 + 0.5) * i as f32) as usize);
+        }
+        boxes
+    }
+
+    #[test]
+    #[ignore = "prints times"]
+    fn cost_per_box() {
+        for count in [2, 64, 1000, 4000, 16_000] {
+            let ordered = cost(count, |seed| pile(count, seed));
+            let shuffled = cost(count, |seed| shuffled(pile(count, seed), seed));
+            println!(
+                "{count:6} boxes, ns each: built, kept, a ray: {ordered:.0?}, in no order {shuffled:.0?}"
+            );
+        }
+    }
+
+    /// Nanoseconds for each box: to find the pairs with a new tree, with one that is kept, and a ray.
+    fn cost(count: usize, boxes: impl Fn(u32) -> Vec<Aabb>) -> [f64; 3] {
+        let mut least = [f64::INFINITY; 3];
+        let (mut search, mut pairs) = (PairSearch::default(), Vec::new());
+        for boxes in (0..40).map(boxes) {
+            search.tests_when_built = 0;
+            let mut find = || {
+                let movable = vec![true; boxes.len()];
+                overlapping_pairs(&boxes, &movable, Instructions::Widest, &mut search, &mut pairs);
+            };
+            let times = [seconds(&mut find), seconds(&mut find), {
+                let tree = Bvh::new(&boxes);
+                let across = |from: &Aabb| {
+                    tree.ray(from.low, Vec3::new(3.0, 2.0, 1.0), 1.0, Instructions::Widest, |_, t| t)
+                };
+                seconds(|| boxes.iter().for_each(across))
+            }];
+            for (least, time) in least.iter_mut().zip(times) {
+                *least = least.min(time * 1e9 / count as f64);
+            }
+        }
+        least
+    }
+
+    fn seconds(work: impl FnOnce()) -> f64 {
+        let start = std::time::Instant::now();
+        work();
+        start.elapsed().as_secs_f64()
+    }
+}

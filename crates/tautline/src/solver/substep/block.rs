@@ -1,0 +1,171 @@
+//! Eight bodies side by side: read from their particles when a step begins, written back when it ends.
+//!
+//! A rigid body moves as four equal masses would at s∘tᵢ in its principal frame, with t = (1, 1, 1), (1, −1, −1),
+//! (−1, 1, −1), (−1, −1, 1) and sₖ = √(Cₖ/M), Cₖ the second moment along axis k (Routh's equimomental system; Laus &
+//! Selig 2020). Its centre is their mean, its axes are signed sums of them over 4 sₖ, and its velocities are the
+//! moments of their displacements. In between the solver holds those instead.
+//!
+//! The solver's row of a body is [v, 1/m, w, 1]: v its motion in a substep (m), w = √I Rᵀ ω h its scaled rotation in
+//! the frame of the step's start. In these variables the inverse mass matrix is diag(1/m, 1), so that one Jacobian
+//! √I⁻¹ (l × Rᵀd) both reads a velocity and applies an impulse. The last number is 0 for what no impulse turns.
+
+use crate::simd::{LANES, Lanes, Matrix3x8, Row, Vec3x8};
+
+/// Three rows: all x, all y, all z.
+pub(super) type Rows3 = [Row; 3];
+
+/// What does not change from step to step.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Constants {
+    /// sₖ, in m.
+    pub(super) spread: Rows3,
+    /// Principal moments per mass, in m².
+    pub(super) inertia: Rows3,
+    /// √I, in √kg m.
+    pub(super) root_inertia: Rows3,
+    pub(super) inverse_root_inertia: Rows3,
+    /// 1/m, in 1/kg; 0 = moved by nothing.
+    pub(super) inverse_mass: Row,
+    /// 1 if impulses turn it, 0 if not.
+    pub(super) response: Row,
+    /// How far the shape reaches from the centre of mass, in m.
+    pub(super) reach: Row,
+    /// How many times gravity acts on it.
+    pub(super) gravity_scale: Row,
+    /// Rates at which motion and rotation die out, in 1/s.
+    pub(super) damping: [Row; 2],
+}
+
+/// Where eight bodies are.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Block {
+    pub(super) constants: Constants,
+    /// Centres of mass, in m.
+    pub(super) center: Rows3,
+    /// Axes: the columns of the rotation R from the principal frame.
+    pub(super) axes: [Rows3; 3],
+    /// Axes when the step began, R₀.
+    pub(super) start_axes: [Rows3; 3],
+}
+
+/// The particles of eight bodies: particle k's coordinate j is row 3 k + j.
+pub(super) type ParticleRows = [Row; 12];
+
+/// Velocities of eight bodies over a substep.
+#[derive(Clone, Copy)]
+pub(super) struct Motion<L> {
+    /// In m.
+    pub(super) linear: Vec3x8<L>,
+    /// In the body's frame, in rad.
+    pub(super) angular: Vec3x8<L>,
+}
+
+#[inline(always)]
+pub(super) fn particles<L: Lanes>(rows: &ParticleRows) -> [Vec3x8<L>; 4] {
+    let mut vectors = [Vec3x8::zero(); 4];
+    for (k, vector) in vectors.iter_mut().enumerate() {
+        *vector = Vec3x8::new(L::load(&rows[3 * k]), L::load(&rows[3 * k + 1]), L::load(&rows[3 * k + 2]));
+    }
+    vectors
+}
+
+#[inline(always)]
+fn store_particle<L: Lanes>(vector: Vec3x8<L>, rows: &mut [Row]) {
+    vector.x.store(&mut rows[0]);
+    vector.y.store(&mut rows[1]);
+    vector.z.store(&mut rows[2]);
+}
+
+impl Block {
+    /// Finds where the bodies are, and how their displacements times `scale` move them.
+    #[inline(always)]
+    pub(super) fn read<L: Lanes>(
+        &mut self,
+        positions: &ParticleRows,
+        displacements: &ParticleRows,
+        scale: L,
+    ) -> Motion<L> {
+        let quarter = L::splat(0.25);
+        let (x, d) = (particles::<L>(positions), particles::<L>(displacements));
+        let (front, back) = (x[0] + x[1], x[2] + x[3]);
+        let center = (front + back) * quarter;
+        let (first, second) = (front - back, (x[0] - x[1]) + (x[2] - x[3]));
+        // The largest two of the axes, since those are the best known: moments are in descending order.
+        let e0 = first * (L::splat(1.0) / first.length());
+        let e2 = e0.cross(second);
+        let e2 = e2 * (L::splat(1.0) / e2.length());
+        let axes = Matrix3x8([e0, e2.cross(e0), e2]);
+        let linear = ((d[0] + d[1]) + (d[2] + d[3])) * quarter;
+        let mut moment = Vec3x8::zero();
+        for k in 0..4 {
+            moment = moment + (x[k] - center).cross(d[k]);
+        }
+        let inertia = Vec3x8::<L>::load(&self.constants.inertia);
+        let momentum = axes.apply_transposed(moment * quarter);
+        let angular = Vec3x8::new(momentum.x / inertia.x, momentum.y / inertia.y, momentum.z / inertia.z);
+        center.store(&mut self.center);
+        axes.store(&mut self.axes);
+        axes.store(&mut self.start_axes);
+        Motion { linear: linear * scale, angular: angular * scale }
+    }
+
+    /// From the principal frames to the world.
+    #[inline(always)]
+    pub(super) fn axes_now<L: Lanes>(&self) -> Matrix3x8<L> {
+        Matrix3x8::load(&self.axes)
+    }
+
+    /// The particles of the bodies where they are now, and their displacements in the last substep.
+    #[inline(always)]
+    pub(super) fn write<L: Lanes>(
+        &self,
+        motion: Motion<L>,
+        positions: &mut ParticleRows,
+        displacements: &mut ParticleRows,
+    ) {
+        let center = Vec3x8::<L>::load(&self.center);
+        let axes = Matrix3x8::<L>::load(&self.axes);
+        let spread = Vec3x8::<L>::load(&self.constants.spread);
+        let (e0, e1, e2) = (axes.0[0] * spread.x, axes.0[1] * spread.y, axes.0[2] * spread.z);
+        let turn = axes.apply(motion.angular);
+        let arms = [e0 + e1 + e2, e0 - e1 - e2, e1 - e0 - e2, e2 - e0 - e1];
+        for (k, arm) in arms.into_iter().enumerate() {
+            let (x, d) = (center + arm, motion.linear + turn.cross(arm));
+            store_particle(x, &mut positions[3 * k..]);
+            store_particle(d, &mut displacements[3 * k..]);
+        }
+    }
+
+    /// The solver's rows of the bodies moving so.
+    #[inline(always)]
+    pub(super) fn velocity_rows<L: Lanes>(&self, motion: Motion<L>) -> [L; LANES] {
+        let scaled = motion.angular.scale(Vec3x8::load(&self.constants.root_inertia));
+        let v = motion.linear;
+        let (mass, response) = (L::load(&self.constants.inverse_mass), L::load(&self.constants.response));
+        [v.x, v.y, v.z, mass, scaled.x, scaled.y, scaled.z, response]
+    }
+
+    /// How the bodies with these rows move, turned from the frame of the step's start to theirs of now.
+    #[inline(always)]
+    pub(super) fn motion<L: Lanes>(&self, columns: &[L; LANES]) -> Motion<L> {
+        let scaled = Vec3x8::new(columns[4], columns[5], columns[6]);
+        let in_start = scaled.scale(Vec3x8::load(&self.constants.inverse_root_inertia));
+        let start = Matrix3x8::<L>::load(&self.start_axes);
+        let now = Matrix3x8::<L>::load(&self.axes);
+        let angular = now.apply_transposed(start.apply(in_start));
+        Motion { linear: Vec3x8::new(columns[0], columns[1], columns[2]), angular }
+    }
+
+    /// A bound of how far any point of a body is from where it was at another pose: √(|Δc|² + r² Σ|Δeₖ|²/2), in m,
+    /// squared.
+    #[inline(always)]
+    pub(super) fn moved_squared<L: Lanes>(&self, center: &Rows3, axes: &[Rows3; 3]) -> L {
+        let shift = Vec3x8::<L>::load(&self.center) - Vec3x8::load(center);
+        let mut turn = L::splat(0.0);
+        for (now, before) in self.axes.iter().zip(axes) {
+            turn = turn + (Vec3x8::<L>::load(now) - Vec3x8::load(before)).length_squared();
+        }
+        let reach = L::load(&self.constants.reach);
+        shift.length_squared() + reach * reach * L::splat(0.5) * turn
+    }
+}

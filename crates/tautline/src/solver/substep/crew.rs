@@ -1,0 +1,508 @@
+//! The bodies of a lineup: their blocks, and their rows for the solver.
+
+use std::ops::Range;
+
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+use crate::body::{Body, CORNERS, Motion as MotionKind, Rigid, Substance};
+use crate::parallel;
+use crate::particles::Particles;
+use crate::simd::{Instructions, Kernel, LANES, Lanes, Row, Vec3x8, run};
+
+use super::block::{Block, Constants, Motion, ParticleRows, Rows3, particles};
+use super::lineup::Lineup;
+use super::rigidity;
+
+/// How far a body moves before its contacts are looked for anew, in m.
+const TOLERANCE: f32 = 2.5e-4;
+/// By how much the speed of a body counts for how far ahead its pairs are found.
+const LOOK_AHEAD: f32 = 1.5;
+
+/// The step that is being made.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Timing {
+    /// A substep, in s.
+    pub(super) h: f32,
+    pub(super) substeps: f32,
+    /// In m/s².
+    pub(super) gravity: Vec3,
+    /// In 1/s, for all bodies.
+    pub(super) damping: f32,
+    /// How far apart contacts are kept at least, in m.
+    pub(super) margin: f32,
+    pub(super) instructions: Instructions,
+}
+
+/// Where eight bodies were at some earlier time.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Earlier {
+    pub(super) center: Rows3,
+    pub(super) axes: [Rows3; 3],
+}
+
+/// What is remembered of a block from step to step.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Track {
+    /// When contacts were last looked for.
+    seen: Earlier,
+    /// When their boxes were made.
+    boxed: Earlier,
+    /// How far bodies may get from there, in m.
+    room: Row,
+    /// How much of the room this step may need, in m.
+    pub(super) need: Row,
+    /// Bits of the lanes that have moved since contacts were looked for.
+    moved: u32,
+    /// Whether one may leave its box in this step.
+    leaves: bool,
+}
+
+/// Everything by place.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Crew {
+    pub(super) blocks: Vec<Block>,
+    pub(super) tracks: Vec<Track>,
+    /// Two rows for each place, see `prepare::Poses`.
+    pub(super) poses: Vec<Row>,
+    /// One for each place, see `block`.
+    pub(super) velocities: Vec<Row>,
+    /// What the contacts' multipliers add to each velocity in a substep.
+    pub(super) accumulated: Vec<Row>,
+    /// Velocities when `accumulated` was last brought up to date.
+    before: Vec<Row>,
+    /// What forces add to each velocity in a substep.
+    pub(super) kicks: Vec<Row>,
+}
+
+/// A run of blocks with all that belongs to them.
+struct Squad<'a> {
+    places: &'a [u32],
+    blocks: &'a mut [Block],
+    tracks: &'a mut [Track],
+    poses: &'a mut [Row],
+    velocities: &'a mut [Row],
+    accumulated: &'a mut [Row],
+    before: &'a mut [Row],
+    kicks: &'a mut [Row],
+}
+
+impl Crew {
+    /// The bodies where they stand; nothing is read of where they are yet.
+    pub(super) fn new(lineup: &Lineup, bodies: &[Body]) -> Self {
+        let count = lineup.places.len();
+        let block = |places: &[u32]| new_block(places, bodies);
+        Self {
+            blocks: lineup.places.chunks(LANES).map(block).collect(),
+            tracks: vec![Track::default(); count / LANES],
+            poses: vec![Row::ZERO; 2 * count],
+            velocities: vec![Row::ZERO; count],
+            accumulated: vec![Row::ZERO; count],
+            before: vec![Row::ZERO; count],
+            kicks: vec![Row::ZERO; count],
+        }
+    }
+
+    /// Does `work` on every one of these runs of places, which follow each other, side by side.
+    fn for_each(
+        &mut self,
+        lineup: &Lineup,
+        runs: impl Iterator<Item = Range<usize>>,
+        work: impl Fn(&mut Squad<'_>) + Send + Sync,
+    ) {
+        let (mut blocks, mut tracks) = (&mut self.blocks[..], &mut self.tracks[..]);
+        let (mut poses, mut velocities) = (&mut self.poses[..], &mut self.velocities[..]);
+        let (mut accumulated, mut before) = (&mut self.accumulated[..], &mut self.before[..]);
+        let (mut kicks, mut done) = (&mut self.kicks[..], 0);
+        let squad = |run: Range<usize>| {
+            let (skip, places) = (run.start - done, run.len());
+            done = run.end;
+            Squad {
+                places: &lineup.places[run],
+                blocks: take(&mut blocks, skip / LANES, places / LANES),
+                tracks: take(&mut tracks, skip / LANES, places / LANES),
+                poses: take(&mut poses, 2 * skip, 2 * places),
+                velocities: take(&mut velocities, skip, places),
+                accumulated: take(&mut accumulated, skip, places),
+                before: take(&mut before, skip, places),
+                kicks: take(&mut kicks, skip, places),
+            }
+        };
+        let mut squads: Vec<Squad<'_>> = runs.map(squad).collect();
+        let worthwhile = squads.len() > 1;
+        parallel::for_each(&mut squads, worthwhile, work);
+    }
+
+    /// Reads where bodies are and how they move, and what pushes them. Bodies that never move are read once.
+    pub(super) fn read(
+        &mut self,
+        lineup: &Lineup,
+        (bodies, particles): (&[Body], &Particles),
+        timing: &Timing,
+        is_first: bool,
+    ) {
+        let end = if is_first { lineup.places.len() } else { lineup.moving() };
+        let tail = lineup.solved..end;
+        self.for_each(lineup, lineup.stripes().chain([tail]), |squad| {
+            run(timing.instructions, Read { squad, bodies, particles, timing });
+        });
+    }
+
+    /// Raises the versions of bodies that have moved, and tells whether one may leave its box in this step.
+    pub(super) fn count_versions(&mut self, lineup: &Lineup, versions: &mut [u32]) -> bool {
+        let mut leaves = false;
+        for (track, places) in self.tracks.iter_mut().zip(lineup.places.chunks(LANES)) {
+            leaves |= std::mem::take(&mut track.leaves);
+            let mut moved = std::mem::take(&mut track.moved);
+            while moved != 0 {
+                let body = places[moved.trailing_zeros() as usize];
+                moved &= moved - 1;
+                if let Some(version) = versions.get_mut(body as usize) {
+                    *version = version.wrapping_add(1);
+                }
+            }
+        }
+        leaves
+    }
+
+    /// Remembers that boxes have been made, in which bodies have `room` by place.
+    pub(super) fn set_boxes(&mut self, room: &[f32]) {
+        for ((track, block), room) in self.tracks.iter_mut().zip(&self.blocks).zip(room.chunks(LANES)) {
+            track.boxed = Earlier { center: block.center, axes: block.axes };
+            track.room.0.copy_from_slice(room);
+        }
+    }
+
+    /// Adds what forces and contacts do in a substep.
+    pub(super) fn kick(&mut self, lineup: &Lineup, is_first: bool, instructions: Instructions) {
+        self.for_each(lineup, lineup.stripes(), |squad| run(instructions, Kick { squad, is_first }));
+    }
+
+    /// Moves all bodies by a substep.
+    pub(super) fn advance(&mut self, lineup: &Lineup, timing: &Timing) {
+        self.for_each(lineup, lineup.stripes(), |squad| {
+            run(timing.instructions, Advance { squad, h: timing.h })
+        });
+    }
+
+    /// The particles of eight bodies as they are now: positions and displacements.
+    pub(super) fn particles_of(&self, block: usize, instructions: Instructions) -> [ParticleRows; 2] {
+        let rows = &self.velocities[block * LANES..(block + 1) * LANES];
+        run(instructions, Write { block: &self.blocks[block], rows })
+    }
+
+    /// What a place remembers, to be carried over to another lineup.
+    pub(super) fn memory(&self, place: usize) -> TrackMemory {
+        let (track, lane) = (&self.tracks[place / LANES], place % LANES);
+        let column = |rows: &Rows3| Vec3::new(rows[0].0[lane], rows[1].0[lane], rows[2].0[lane]);
+        TrackMemory { center: column(&track.seen.center), axes: track.seen.axes.each_ref().map(column) }
+    }
+
+    pub(super) fn recall(&mut self, place: usize, memory: &TrackMemory) {
+        let (track, lane) = (&mut self.tracks[place / LANES], place % LANES);
+        set_lane(&mut track.seen.center, lane, memory.center);
+        for (rows, axis) in track.seen.axes.iter_mut().zip(memory.axes) {
+            set_lane(rows, lane, axis);
+        }
+    }
+}
+
+/// Where one body was when contacts were last looked for.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct TrackMemory {
+    center: Vec3,
+    axes: [Vec3; 3],
+}
+
+/// `count` items of a slice after `skip`; the slice then begins behind them.
+fn take<'a, T>(slice: &mut &'a mut [T], skip: usize, count: usize) -> &'a mut [T] {
+    let (_, tail) = std::mem::take(slice).split_at_mut(skip);
+    let (head, tail) = tail.split_at_mut(count);
+    *slice = tail;
+    head
+}
+
+fn set_lane(rows: &mut Rows3, lane: usize, value: Vec3) {
+    for (row, number) in rows.iter_mut().zip(value.to_array()) {
+        row.0[lane] = number;
+    }
+}
+
+fn rigid_at<'a>(place: u32, bodies: &'a [Body]) -> Option<(&'a Body, &'a Rigid)> {
+    let body = bodies.get(place as usize)?;
+    match &body.substance {
+        Substance::Rigid(rigid) => Some((body, rigid)),
+        _ => None,
+    }
+}
+
+fn new_block(places: &[u32], bodies: &[Body]) -> Block {
+    let one = Row([1.0; LANES]);
+    let mut constants = Constants {
+        spread: [one; 3],
+        inertia: [one; 3],
+        root_inertia: [one; 3],
+        inverse_root_inertia: [one; 3],
+        ..Constants::default()
+    };
+    for (lane, &body) in places.iter().enumerate() {
+        let Some((body, rigid)) = rigid_at(body, bodies) else { continue };
+        set_lane(&mut constants.spread, lane, rigid.spread());
+        let inertia = rigid.inertia_per_mass();
+        set_lane(&mut constants.inertia, lane, inertia);
+        constants.reach.0[lane] = rigid.shape.reach();
+        if rigid.traits.motion == MotionKind::Dynamic && body.is_awake() {
+            let moments = inertia * rigid.mass;
+            let root = Vec3::new(moments.x.sqrt(), moments.y.sqrt(), moments.z.sqrt());
+            set_lane(&mut constants.root_inertia, lane, root);
+            set_lane(&mut constants.inverse_root_inertia, lane, Vec3::ONE / root);
+            constants.inverse_mass.0[lane] = 1.0 / rigid.mass;
+            constants.response.0[lane] = 1.0;
+            constants.gravity_scale.0[lane] = rigid.traits.gravity_scale;
+            constants.damping[0].0[lane] = rigid.traits.linear_damping;
+            constants.damping[1].0[lane] = rigid.traits.angular_damping;
+        }
+    }
+    Block { constants, ..Block::default() }
+}
+
+/// Particles to blocks and rows.
+struct Read<'a, 'b> {
+    squad: &'a mut Squad<'b>,
+    bodies: &'a [Body],
+    particles: &'a Particles,
+    timing: &'a Timing,
+}
+
+/// The particles of eight bodies, the factors that make their displacements those of a substep, and half of how
+/// much longer than that their last substep was, in substeps.
+struct Inputs {
+    positions: ParticleRows,
+    displacements: ParticleRows,
+    forces: ParticleRows,
+    scale: Row,
+    lag: Row,
+}
+
+impl Read<'_, '_> {
+    #[inline(always)]
+    fn inputs(&self, places: &[u32]) -> Inputs {
+        let mut inputs = Inputs {
+            positions: [Row::ZERO; 12],
+            displacements: [Row::ZERO; 12],
+            forces: [Row::ZERO; 12],
+            scale: Row::ZERO,
+            lag: Row::ZERO,
+        };
+        for (lane, &body) in places.iter().enumerate() {
+            let Some(body) = self.bodies.get(body as usize) else {
+                // Somewhere a body could be.
+                set_particles(&mut inputs.positions, lane, &CORNERS);
+                continue;
+            };
+            let range = body.particles.clone();
+            set_particles(&mut inputs.positions, lane, &self.particles.position[range.clone()]);
+            set_particles(&mut inputs.displacements, lane, &self.particles.displacement[range.clone()]);
+            if self.particles.is_forced {
+                set_particles(&mut inputs.forces, lane, &self.particles.force[range]);
+            }
+            inputs.scale.0[lane] = self.timing.h / body.displacement_time();
+            inputs.lag.0[lane] = (body.previous_step / self.timing.h - 1.0) * 0.5;
+        }
+        inputs
+    }
+}
+
+#[inline(always)]
+fn set_particles(rows: &mut ParticleRows, lane: usize, particles: &[Vec3]) {
+    for (rows, particle) in rows.chunks_exact_mut(3).zip(particles) {
+        for (row, number) in rows.iter_mut().zip(particle.to_array()) {
+            row.0[lane] = number;
+        }
+    }
+}
+
+impl Kernel for Read<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        for i in 0..self.squad.blocks.len() {
+            let range = i * LANES..(i + 1) * LANES;
+            let inputs = self.inputs(&self.squad.places[range.clone()]);
+            let block = &mut self.squad.blocks[i];
+            let motion = block.read::<L>(&inputs.positions, &inputs.displacements, L::load(&inputs.scale));
+            let columns = block.velocity_rows(motion);
+            let kick: [L; LANES] = kick(self.timing, self.particles.is_forced, block, &inputs);
+            let lag = L::load(&inputs.lag);
+            let mut lagging = columns;
+            for k in 0..LANES {
+                lagging[k] = columns[k] + kick[k] * lag;
+            }
+            store(lagging, &mut self.squad.velocities[range.clone()]);
+            store(kick, &mut self.squad.kicks[range.clone()]);
+            let turning = track(self.timing, block, motion, &mut self.squad.tracks[i]);
+            write_poses::<L>(block, turning, &mut self.squad.poses[2 * range.start..2 * range.end]);
+            self.squad.accumulated[range].fill(Row::ZERO);
+        }
+    }
+}
+
+/// What gravity and forces add to the rows in a substep.
+#[inline(always)]
+fn kick<L: Lanes>(timing: &Timing, is_forced: bool, block: &Block, inputs: &Inputs) -> [L; LANES] {
+    let constants = &block.constants;
+    let (zero, h) = (L::splat(0.0), timing.h);
+    let gravity = Vec3x8::splat(timing.gravity * (h * h)) * L::load(&constants.gravity_scale);
+    if !is_forced {
+        return [gravity.x, gravity.y, gravity.z, zero, zero, zero, zero, zero];
+    }
+    let h_squared = L::splat(h * h);
+    let (forces, positions) = (particles::<L>(&inputs.forces), particles::<L>(&inputs.positions));
+    let center = Vec3x8::<L>::load(&block.center);
+    let (mut total, mut torque) = (Vec3x8::<L>::zero(), Vec3x8::<L>::zero());
+    for (force, position) in forces.into_iter().zip(positions) {
+        total = total + force;
+        torque = torque + (position - center).cross(force);
+    }
+    let linear = gravity + total * (L::load(&constants.inverse_mass) * h_squared);
+    let turn = block.axes_now().apply_transposed(torque).scale(Vec3x8::load(&constants.inverse_root_inertia));
+    let turn = turn * (L::load(&constants.response) * h_squared);
+    [linear.x, linear.y, linear.z, zero, turn.x, turn.y, turn.z, zero]
+}
+
+/// Notes which bodies have moved, and which may leave their boxes. Returns how far each one's rotation moves its
+/// points in the step, in m.
+#[inline(always)]
+fn track<L: Lanes>(timing: &Timing, block: &Block, motion: Motion<L>, track: &mut Track) -> L {
+    let substeps = L::splat(timing.substeps);
+    let turning = motion.angular.length() * L::load(&block.constants.reach) * substeps;
+    let look_ahead = motion.linear.length() * substeps * L::splat(LOOK_AHEAD);
+    let need = look_ahead + turning + L::splat(0.5 * timing.margin);
+    need.store(&mut track.need);
+    let moved = block.moved_squared::<L>(&track.seen.center, &track.seen.axes);
+    let has_moved = moved.greater(L::splat(TOLERANCE * TOLERANCE));
+    track.moved |= has_moved.bits();
+    if track.moved != 0 {
+        update(has_moved, &mut track.seen.center, &block.center);
+        for (rows, now) in track.seen.axes.iter_mut().zip(&block.axes) {
+            update(has_moved, rows, now);
+        }
+    }
+    let away = block.moved_squared::<L>(&track.boxed.center, &track.boxed.axes).sqrt();
+    track.leaves |= (away + need).greater(L::load(&track.room)).bits() != 0;
+    turning
+}
+
+/// Where the mask is set.
+#[inline(always)]
+fn update<L: Lanes>(mask: L, rows: &mut Rows3, now: &Rows3) {
+    Vec3x8::select(mask, Vec3x8::<L>::load(now), Vec3x8::load(rows)).store(rows);
+}
+
+#[inline(always)]
+fn store<L: Lanes>(columns: [L; LANES], rows: &mut [Row]) {
+    let lanes = L::transpose(columns);
+    for (lane, row) in rows.iter_mut().enumerate() {
+        lanes[lane].store(row);
+    }
+}
+
+#[inline(always)]
+fn load<L: Lanes>(rows: &[Row]) -> [L; LANES] {
+    let zero = L::splat(0.0);
+    let mut lanes = [zero; LANES];
+    for (lanes, row) in lanes.iter_mut().zip(rows) {
+        *lanes = L::load(row);
+    }
+    L::transpose(lanes)
+}
+
+/// See `prepare::Poses`.
+#[inline(always)]
+fn write_poses<L: Lanes>(block: &Block, turning: L, poses: &mut [Row]) {
+    let constants = &block.constants;
+    let center = Vec3x8::<L>::load(&block.center);
+    let root = Vec3x8::<L>::load(&constants.inverse_root_inertia);
+    let mass = L::load(&constants.inverse_mass);
+    let response = L::load(&constants.response);
+    let first = L::transpose([center.x, center.y, center.z, mass, root.x, root.y, root.z, response]);
+    let [e0, e1, _] = block.axes_now::<L>().0;
+    let reach = L::load(&constants.reach);
+    let second = L::transpose([e0.x, e0.y, e0.z, e1.x, e1.y, e1.z, turning, reach]);
+    for (lane, pose) in poses.chunks_exact_mut(2).enumerate() {
+        first[lane].store(&mut pose[0]);
+        second[lane].store(&mut pose[1]);
+    }
+}
+
+/// What has changed since the last time is what the contacts did; it is done again, until it changes again.
+struct Kick<'a, 'b> {
+    squad: &'a mut Squad<'b>,
+    is_first: bool,
+}
+
+impl Kernel for Kick<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Squad { velocities, accumulated, before, kicks, .. } = self.squad;
+        let rows = velocities.iter_mut().zip(accumulated.iter_mut()).zip(before.iter_mut().zip(kicks.iter()));
+        for ((velocity, accumulated), (before, kick)) in rows {
+            let now = L::load(velocity);
+            let mut sum = L::load(accumulated);
+            if !self.is_first {
+                sum = sum + (now - L::load(before));
+                sum.store(accumulated);
+            }
+            let kicked = now + sum + L::load(kick);
+            kicked.store(velocity);
+            kicked.store(before);
+        }
+    }
+}
+
+struct Advance<'a, 'b> {
+    squad: &'a mut Squad<'b>,
+    h: f32,
+}
+
+impl Kernel for Advance<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Squad { blocks, velocities, accumulated, before, .. } = self.squad;
+        let chunks = velocities.chunks_exact_mut(LANES).zip(accumulated.chunks_exact_mut(LANES));
+        for ((block, (velocities, accumulated)), before) in
+            blocks.iter_mut().zip(chunks).zip(before.chunks_exact_mut(LANES))
+        {
+            for ((velocity, accumulated), before) in velocities.iter().zip(accumulated).zip(&*before) {
+                let change = L::load(velocity) - L::load(before);
+                (L::load(accumulated) + change).store(accumulated);
+            }
+            let columns = rigidity::advance::<L>(block, &load(velocities), self.h);
+            store(columns, velocities);
+            before.copy_from_slice(velocities);
+        }
+    }
+}
+
+struct Write<'a> {
+    block: &'a Block,
+    rows: &'a [Row],
+}
+
+impl Kernel for Write<'_> {
+    type Output = [ParticleRows; 2];
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> Self::Output {
+        let mut particles = [[Row::ZERO; 12]; 2];
+        let [positions, displacements] = &mut particles;
+        let motion = self.block.motion::<L>(&load(self.rows));
+        self.block.write(motion, positions, displacements);
+        particles
+    }
+}

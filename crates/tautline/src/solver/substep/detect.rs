@@ -1,0 +1,222 @@
+//! From poses to contacts: the narrow phase over the list of pairs.
+//!
+//! A body's version rises when it has moved more than a quarter of a millimetre; a pair whose versions are the same
+//! keeps its contact, and the solver finds its distances from the anchors. Else the axis remembered of the pair is
+//! tried, which ends half of the pairs that moved, and only then the distance is searched for.
+
+use glam::{Mat3, Vec3};
+
+use super::held::{Held, HeldPoint};
+use super::pairs::{Detail, Pair};
+use crate::body::{Body, Substance};
+use crate::geometry::manifold::{Manifold, Placement, Scratch, collide, collide_plane, separation_along};
+use crate::shape::Convex;
+use crate::simd::{Kernel, Lanes, Row};
+
+/// What the narrow phase reads.
+#[derive(Clone, Copy)]
+pub(super) struct Scene<'a> {
+    pub(super) bodies: &'a [Body],
+    pub(super) versions: &'a [u32],
+    pub(super) place_of: &'a [u32],
+    /// Two for each place, see `prepare`.
+    pub(super) poses: &'a [Row],
+    /// One for each place: motion in a substep.
+    pub(super) velocities: &'a [Row],
+    pub(super) substeps: f32,
+    /// How far apart contacts are kept at least, in m.
+    pub(super) margin: f32,
+}
+
+/// Points further apart than this no longer hold on to each other, in m.
+const LETS_GO: f32 = 1e-3;
+/// How near a point is to an older one to go on as it did, as a share of the size of the body, squared.
+const SAME_PLACE_SQUARED: f32 = 0.02;
+/// By how much the speed that bodies approach each other at counts for how far ahead contacts are found.
+const LOOK_AHEAD: f32 = 1.5;
+
+/// A body's place in the world.
+#[derive(Clone, Copy)]
+struct Placed {
+    center: Vec3,
+    axes: Mat3,
+    /// Motion in a whole step, in m.
+    motion: Vec3,
+    /// How far its rotation moves its points in a whole step, in m.
+    turning: f32,
+    reach: f32,
+}
+
+impl Scene<'_> {
+    #[inline(always)]
+    fn placed(&self, body: u32) -> Placed {
+        let place = self.place_of[body as usize] as usize;
+        let (first, second) = (&self.poses[2 * place].0, &self.poses[2 * place + 1].0);
+        let (e0, e1) =
+            (Vec3::new(second[0], second[1], second[2]), Vec3::new(second[3], second[4], second[5]));
+        let velocity = &self.velocities[place].0;
+        Placed {
+            center: Vec3::new(first[0], first[1], first[2]),
+            axes: Mat3::from_cols(e0, e1, e0.cross(e1)),
+            motion: Vec3::new(velocity[0], velocity[1], velocity[2]) * self.substeps,
+            turning: second[6],
+            reach: second[7],
+        }
+    }
+
+    fn stamp(&self, pair: &Pair) -> u32 {
+        self.versions[pair.a as usize].wrapping_add(self.versions[pair.b as usize])
+    }
+}
+
+/// Brings the contacts of a run of pairs up to date.
+pub(super) struct Detect<'a> {
+    pub(super) scene: Scene<'a>,
+    pub(super) pairs: &'a mut [Pair],
+    pub(super) details: &'a mut [Detail],
+    pub(super) scratch: &'a mut Scratch,
+}
+
+impl Kernel for Detect<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Self { scene, pairs, details, scratch } = self;
+        for (pair, detail) in pairs.iter_mut().zip(details) {
+            let stamp = scene.stamp(pair);
+            if stamp != pair.stamp {
+                pair.stamp = stamp;
+                update::<L>(scene, pair, detail, scratch);
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn update<L: Lanes>(scene: Scene<'_>, pair: &mut Pair, detail: &mut Detail, scratch: &mut Scratch) {
+    let a = scene.placed(pair.a);
+    let (manifold, b) = match &scene.bodies[pair.b as usize].substance {
+        Substance::HalfSpace(wall) => {
+            let along = a.axes.transpose() * wall.normal;
+            let offset = wall.offset - wall.normal.dot(a.center);
+            let closing = -wall.normal.dot(a.motion);
+            let margin = scene.margin + LOOK_AHEAD * closing.max(0.0) + 0.5 * a.turning;
+            let convex = part(scene.bodies, pair.a, detail.part_a);
+            let Some(convex) = convex else { return };
+            if -along.dot(Vec3::ZERO) - offset - a.reach > margin {
+                pair.points = 0;
+                return;
+            }
+            let mut manifold = collide_plane::<L>(convex, along, offset, scratch, margin);
+            for point in &mut manifold.points {
+                point.on_b = a.center + a.axes * point.on_b;
+            }
+            (
+                manifold,
+                Placed {
+                    center: Vec3::ZERO,
+                    axes: Mat3::IDENTITY,
+                    motion: Vec3::ZERO,
+                    turning: 0.0,
+                    reach: 0.0,
+                },
+            )
+        }
+        _ => {
+            let b = scene.placed(pair.b);
+            let parts =
+                part(scene.bodies, pair.a, detail.part_a).zip(part(scene.bodies, pair.b, detail.part_b));
+            let Some(parts) = parts else { return };
+            (collide_parts::<L>(scene, parts, (&a, &b), detail, scratch), b)
+        }
+    };
+    pair.points = manifold.count as u32;
+    if manifold.count > 0 {
+        hold(&manifold, (&a, &b), detail);
+    } else if let Some(held) = &mut detail.held {
+        held.forget();
+    }
+}
+
+fn part(bodies: &[Body], body: u32, part: u32) -> Option<&Convex> {
+    match &bodies[body as usize].substance {
+        Substance::Rigid(rigid) => rigid.shape.parts().get(part as usize).map(|part| &part.convex),
+        _ => None,
+    }
+}
+
+#[inline(always)]
+fn collide_parts<L: Lanes>(
+    scene: Scene<'_>,
+    (part_a, part_b): (&Convex, &Convex),
+    (a, b): (&Placed, &Placed),
+    detail: &mut Detail,
+    scratch: &mut Scratch,
+) -> Manifold {
+    let to_a = a.axes.transpose();
+    let b_in_a = Placement { rotation: to_a * b.axes, translation: to_a * (b.center - a.center) };
+    let approach = to_a * (a.motion - b.motion);
+    let base = scene.margin + 0.5 * (a.turning + b.turning);
+    let axis = detail.memory.axis;
+    let is_new = axis == Vec3::ZERO;
+    if is_new {
+        let margin = base + LOOK_AHEAD * approach.length();
+        return collide::<L>(part_a, part_b, &b_in_a, (&mut detail.memory, scratch), margin);
+    }
+    let margin = base + LOOK_AHEAD * (axis.dot(approach).max(0.0) + 0.1 * approach.length());
+    let separation = separation_along::<L>(part_a, part_b, &b_in_a, axis);
+    if separation > margin {
+        detail.memory.separation = separation;
+        return Manifold::default();
+    }
+    collide::<L>(part_a, part_b, &b_in_a, (&mut detail.memory, scratch), margin)
+}
+
+/// Keeps a contact, which goes on as the pair's last one did.
+#[inline(always)]
+fn hold(manifold: &Manifold, (a, b): (&Placed, &Placed), detail: &mut Detail) {
+    let normal = a.axes * manifold.normal;
+    let mut held = Held::new(normal, detail.touch);
+    let old = detail.held.get_or_insert_default();
+    let old_normal = old.normal();
+    for (point, found) in held.points.iter_mut().zip(&manifold.points[..manifold.count]) {
+        *point = HeldPoint::new(found.on_a, found.on_b, name(found.key));
+        let Some(before) = predecessor(old, name(found.key), found.on_a, a.reach) else { continue };
+        let distance = (b.center + b.axes * before.on_b()) - (a.center + a.axes * before.on_a());
+        let sticks = before.normal_impulse() > 0.0 && distance.dot(old_normal) < LETS_GO;
+        let slip =
+            if sticks { (distance + before.slip()).reject_from_normalized(normal) } else { Vec3::ZERO };
+        point.continue_from(before.normal_impulse(), before.tangent_impulse(), slip);
+    }
+    **old = held;
+}
+
+/// The name of points that are not there.
+const NAMELESS: u32 = 0;
+
+/// Of features, never `NAMELESS`.
+fn name(key: u32) -> u32 {
+    key.wrapping_add(1).max(1)
+}
+
+/// The point of the last contact that a new one goes on from: of the same features, or else the nearest.
+#[inline(always)]
+fn predecessor(old: &Held, key: u32, on_a: Vec3, reach: f32) -> Option<HeldPoint> {
+    let mut nearest = SAME_PLACE_SQUARED * reach * reach;
+    let mut found = None;
+    for point in &old.points {
+        if point.key() == NAMELESS {
+            continue;
+        }
+        if point.key() == key {
+            return Some(*point);
+        }
+        let distance = point.on_a().distance_squared(on_a);
+        if distance < nearest {
+            nearest = distance;
+            found = Some(*point);
+        }
+    }
+    found
+}

@@ -1,0 +1,343 @@
+//! The pairs of one region of the lineup, with their rows.
+
+use std::ops::Range;
+
+use crate::parallel;
+use crate::simd::{Instructions, Kernel, Lanes, Row, run};
+
+use super::batch::{Active, Batch, Colouring, HeaderRows, PointRows};
+use super::bounce::{Bounce, MOST_VISITS};
+use super::contact::{Pass, Softness, pass};
+use super::crew::Crew;
+use super::lineup::{Lineup, Region};
+use super::pairs::Pairs;
+use super::prepare::{Poses, fill};
+use super::rolling::Rolling;
+
+/// Pairs that are solved one batch after the other.
+#[derive(Debug, Clone)]
+pub(super) struct Group {
+    pub(super) region: Region,
+    /// The places whose velocities it reads and changes.
+    pub(super) range: Range<usize>,
+    pub(super) active: Vec<Active>,
+    pub(super) batches: Vec<Batch>,
+    pub(super) headers: Vec<HeaderRows>,
+    pub(super) points: Vec<PointRows>,
+    /// Of the batches with restitution.
+    pub(super) bounces: Vec<Bounce>,
+    /// Of the batches with rolling friction.
+    rollings: Vec<Rolling>,
+    /// Whether the last visit of the bounces changed anything.
+    is_ringing: bool,
+    colouring: Colouring,
+}
+
+/// All groups, in the order in which they are solved: stripes, every other border, the borders between, and what is
+/// far apart. Within one of these phases no two groups share a place.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Groups {
+    groups: Vec<Group>,
+    phases: Vec<Range<usize>>,
+}
+
+impl Group {
+    fn new(region: Region, lineup: &Lineup) -> Self {
+        Self {
+            region,
+            range: lineup.range(region),
+            active: Vec::new(),
+            batches: Vec::new(),
+            headers: Vec::new(),
+            points: Vec::new(),
+            bounces: Vec::new(),
+            rollings: Vec::new(),
+            is_ringing: false,
+            colouring: Colouring::default(),
+        }
+    }
+
+    /// Blows do not last: their impulses are not those of the next step.
+    pub(super) fn forget_blows(&mut self) {
+        for bounce in &self.bounces {
+            bounce.forget_blows(&mut self.points[self.batches[bounce.batch as usize].range()]);
+        }
+    }
+
+    fn batch(&mut self, ground: u32) {
+        let empty = self.range.len() as u32 - 1;
+        self.colouring.batch(&self.active, self.range.len(), [empty, ground], &mut self.batches);
+        let points = self.batches.last().map_or(0, |batch| batch.first + batch.points);
+        if self.headers.len() < self.batches.len() {
+            self.headers.resize_with(self.batches.len(), HeaderRows::default);
+        }
+        if self.points.len() < points as usize {
+            self.points.resize_with(points as usize, PointRows::default);
+        }
+    }
+}
+
+impl Groups {
+    pub(super) fn new(lineup: &Lineup) -> Self {
+        let count = lineup.stripes.len() as u32;
+        let stripes = (0..count).map(Region::Stripe);
+        let even = (0..count.saturating_sub(1)).step_by(2).map(Region::Border);
+        let odd = (1..count.saturating_sub(1).max(1)).step_by(2).map(Region::Border);
+        let mut groups = Self::default();
+        let phases: [Vec<Region>; 4] = [stripes.collect(), even.collect(), odd.collect(), vec![Region::Far]];
+        for regions in phases {
+            let start = groups.groups.len();
+            groups.groups.extend(regions.into_iter().map(|region| Group::new(region, lineup)));
+            groups.phases.push(start..groups.groups.len());
+        }
+        groups
+    }
+
+    pub(super) fn iter_mut(&mut self) -> impl Iterator<Item = &mut Group> {
+        self.groups.iter_mut()
+    }
+
+    /// Sorts the pairs that have points, and of which a body is solved for, into their groups.
+    pub(super) fn sort_in(&mut self, pairs: &Pairs, lineup: &Lineup) {
+        self.groups.iter_mut().for_each(|group| group.active.clear());
+        let stripe_count = lineup.stripes.len();
+        let even = stripe_count / 2;
+        for (index, pair) in pairs.pairs.iter().enumerate().filter(|(_, pair)| pair.points > 0) {
+            let place = |body: u32| lineup.place_of.get(body as usize).copied().unwrap_or(u32::MAX);
+            let (place_a, place_b) = (place(pair.a), place(pair.b).min(lineup.ground()));
+            let Some(region) = lineup.region(place_a, place_b) else { continue };
+            let group = match region {
+                Region::Stripe(i) => i as usize,
+                Region::Border(i) if i % 2 == 0 => stripe_count + i as usize / 2,
+                Region::Border(i) => stripe_count + even + i as usize / 2,
+                Region::Far => self.groups.len() - 1,
+            };
+            let group = &mut self.groups[group];
+            let local = |place: u32| lineup.velocity_place(region, place) - group.range.start as u32;
+            group.active.push(Active {
+                pair: index as u32,
+                a: local(place_a),
+                b: local(place_b),
+                place_a,
+                place_b,
+                points: pair.points as u8,
+                moves_a: (place_a as usize) < lineup.solved,
+                moves_b: (place_b as usize) < lineup.solved,
+            });
+        }
+    }
+
+    /// Does `work` on every group with its range of `rows`, phase after phase, those of a phase side by side.
+    pub(super) fn for_each(&mut self, rows: &mut [Row], work: impl Fn(&mut Group, &mut [Row]) + Send + Sync) {
+        for phase in &self.phases {
+            let groups = &mut self.groups[phase.clone()];
+            if let [group] = groups {
+                let range = group.range.clone();
+                if !group.active.is_empty() {
+                    work(group, &mut rows[range]);
+                }
+                continue;
+            }
+            let (mut rest, mut start) = (&mut rows[..], 0);
+            let mut tasks: Vec<(&mut Group, &mut [Row])> = Vec::with_capacity(groups.len());
+            for group in groups {
+                let (_, tail) = rest.split_at_mut(group.range.start - start);
+                let (own, tail) = tail.split_at_mut(group.range.len());
+                (rest, start) = (tail, group.range.end);
+                tasks.push((group, own));
+            }
+            parallel::for_each(&mut tasks, true, |(group, rows)| {
+                if !group.active.is_empty() {
+                    work(group, rows);
+                }
+            });
+        }
+    }
+
+    /// Makes batches and rows of all groups, and sums up in `accumulated` what their multipliers do to each place.
+    pub(super) fn prepare(
+        &mut self,
+        pairs: &Pairs,
+        poses: &[Row],
+        ground: u32,
+        accumulated: &mut [Row],
+        instructions: Instructions,
+    ) {
+        self.for_each(accumulated, |group, accumulated| {
+            group.batch(ground);
+            run(instructions, Prepare { group, pairs, poses: Poses(poses), accumulated });
+        });
+    }
+
+    /// Whether any contact has restitution.
+    fn has_bounces(&self) -> bool {
+        self.groups.iter().any(|group| !group.bounces.is_empty())
+    }
+
+    /// Before forces act: ends the blows of the last substep, and finds those of this one.
+    pub(super) fn meet(&mut self, crew: &mut Crew, h: f32, instructions: Instructions) {
+        if !self.has_bounces() {
+            return;
+        }
+        let (velocities, kicks) = (&crew.velocities, &crew.kicks);
+        self.for_each(&mut crew.accumulated, |group, accumulated| {
+            let (velocities, kicks) = (&velocities[group.range.clone()], &kicks[group.range.clone()]);
+            run(instructions, Meet { group, velocities, kicks, accumulated, h });
+        });
+    }
+
+    /// After the relaxing pass: blows part the bodies that met.
+    pub(super) fn part(&mut self, velocities: &mut [Row], instructions: Instructions) {
+        if !self.has_bounces() {
+            return;
+        }
+        for visit in 0..MOST_VISITS {
+            self.for_each(velocities, |group, velocities| {
+                group.is_ringing = run(instructions, Part { group, velocities, is_first: visit == 0 });
+            });
+            if !self.groups.iter().any(|group| group.is_ringing) {
+                break;
+            }
+        }
+    }
+
+    /// After the relaxing pass: rolling friction.
+    pub(super) fn resist_rolling(&mut self, velocities: &mut [Row], instructions: Instructions) {
+        if self.groups.iter().all(|group| group.rollings.is_empty()) {
+            return;
+        }
+        self.for_each(velocities, |group, velocities| run(instructions, Resist { group, velocities }));
+    }
+
+    /// Visits all contacts once.
+    pub(super) fn pass(
+        &mut self,
+        kind: Pass,
+        softness: &Softness,
+        velocities: &mut [Row],
+        instructions: Instructions,
+    ) {
+        self.for_each(velocities, |group, velocities| {
+            run(instructions, Visit { kind, softness, group, velocities });
+        });
+    }
+}
+
+struct Prepare<'a> {
+    group: &'a mut Group,
+    pairs: &'a Pairs,
+    poses: Poses<'a>,
+    accumulated: &'a mut [Row],
+}
+
+impl Kernel for Prepare<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Group { batches, headers, points, bounces, rollings, .. } = self.group;
+        let contact_of = |pair: u32| self.pairs.details[pair as usize].held.as_deref();
+        bounces.clear();
+        rollings.clear();
+        for (number, (batch, header)) in (0..).zip(batches.iter().zip(headers)) {
+            let rows = &mut points[batch.range()];
+            fill::<L>(batch, contact_of, &self.poses, (header, rows), self.accumulated);
+            let zero = L::splat(0.0);
+            if L::load(&header.restitution).greater(zero).bits() != 0 {
+                bounces.push(Bounce::new(number));
+            }
+            if L::load(&header.rolling_friction).greater(zero).bits() != 0 {
+                rollings.push(Rolling::new::<L>(number, batch, header, &self.poses));
+            }
+        }
+    }
+}
+
+struct Meet<'a> {
+    group: &'a mut Group,
+    velocities: &'a [Row],
+    kicks: &'a [Row],
+    accumulated: &'a mut [Row],
+    h: f32,
+}
+
+impl Kernel for Meet<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Group { batches, headers, points, bounces, .. } = self.group;
+        for bounce in bounces {
+            let number = bounce.batch as usize;
+            let contacts = (&batches[number], &headers[number], &mut points[batches[number].range()]);
+            bounce.meet::<L>(contacts, (self.velocities, self.kicks), self.accumulated, self.h);
+        }
+    }
+}
+
+struct Part<'a> {
+    group: &'a mut Group,
+    velocities: &'a mut [Row],
+    is_first: bool,
+}
+
+impl Kernel for Part<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> bool {
+        let Group { batches, headers, points, bounces, .. } = self.group;
+        let mut is_ringing = false;
+        for bounce in bounces {
+            let number = bounce.batch as usize;
+            let (batch, header) = (&batches[number], &headers[number]);
+            if self.is_first {
+                bounce.wake::<L>((batch, header, &mut points[batch.range()]), self.velocities);
+            }
+            is_ringing |= bounce.part::<L>((batch, header, &mut points[batch.range()]), self.velocities);
+        }
+        is_ringing
+    }
+}
+
+struct Resist<'a> {
+    group: &'a mut Group,
+    velocities: &'a mut [Row],
+}
+
+impl Kernel for Resist<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Group { batches, headers, points, rollings, .. } = self.group;
+        for rolling in rollings {
+            let number = rolling.batch as usize;
+            let batch = &batches[number];
+            rolling.resist::<L>((batch, &headers[number], &points[batch.range()]), self.velocities);
+        }
+    }
+}
+
+struct Visit<'a> {
+    kind: Pass,
+    softness: &'a Softness,
+    group: &'a mut Group,
+    velocities: &'a mut [Row],
+}
+
+impl Kernel for Visit<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Group { batches, headers, points, .. } = self.group;
+        // The kind is a constant in each of the two copies.
+        match self.kind {
+            Pass::Biased => pass::<L>(Pass::Biased, self.softness, batches, headers, points, self.velocities),
+            Pass::Relaxing => {
+                pass::<L>(Pass::Relaxing, self.softness, batches, headers, points, self.velocities)
+            }
+        }
+    }
+}

@@ -1,0 +1,248 @@
+//! The solver of rigid bodies: substeps, each with one pass over soft contacts and one that relaxes them.
+//!
+//! A step reads the four particles of every body once, finds contacts once, makes its substeps on centres, axes and
+//! velocities, and writes the particles back. Small steps with one pass converge better than one step with many
+//! (Macklin et al. 2019, Small steps in physics simulation).
+
+mod batch;
+mod block;
+mod bounce;
+mod boxes;
+mod contact;
+mod crew;
+mod detect;
+mod group;
+mod held;
+mod lineup;
+mod pairs;
+mod prepare;
+mod rigidity;
+mod rolling;
+
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+use crate::body::{Body, Frame, Motion, Substance};
+use crate::collision::bvh::PairSearch;
+use crate::geometry::manifold;
+use crate::parallel;
+use crate::particles::Particles;
+use crate::settings::Settings;
+use crate::simd::{LANES, run};
+
+use contact::{Pass, Softness};
+use crew::{Crew, Timing};
+use detect::{Detect, Scene};
+use group::Groups;
+use lineup::{Entry, Lineup, NOBODY, Role};
+use pairs::Pairs;
+
+/// The rigid bodies of a world, as they are kept from step to step.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct RigidSolver {
+    lineup: Lineup,
+    crew: Crew,
+    pairs: Pairs,
+    /// Of each body of the world, raised when it has moved.
+    versions: Vec<u32>,
+    /// Whether bodies have come, gone, fallen asleep or changed their kind since the lineup was made.
+    is_stale: bool,
+    groups: Groups,
+    softness: Softness,
+    search: PairSearch,
+    scratch: manifold::Scratch,
+}
+
+/// Contacts are looked for this far apart at least, in m.
+const MARGIN: f32 = 0.005;
+
+/// A body that did not stay finite, and its first particle that did not.
+pub(crate) struct Lost {
+    pub(crate) body: usize,
+    pub(crate) particle: u32,
+}
+
+impl RigidSolver {
+    /// Has the lineup made anew before the next step.
+    pub(crate) fn invalidate(&mut self) {
+        self.is_stale = true;
+    }
+
+    /// Forgets a body that is removed; those behind it move down.
+    pub(crate) fn remove_body(&mut self, body: usize) {
+        self.pairs.remove_body(body as u32);
+        if body < self.versions.len() {
+            self.versions.remove(body);
+        }
+        if body < self.lineup.place_of.len() {
+            let place = self.lineup.place_of.remove(body);
+            self.lineup.forget(body as u32, place);
+        }
+        self.is_stale = true;
+    }
+
+    /// How many pairs of parts are near each other.
+    pub(crate) fn pair_count(&self) -> usize {
+        self.pairs.pairs.len()
+    }
+
+    /// Reads the bodies and finds out who may meet whom.
+    pub(crate) fn begin(&mut self, bodies: &[Body], particles: &Particles, settings: &Settings, h: f32) {
+        let timing = timing(settings, h);
+        let is_first = std::mem::take(&mut self.is_stale);
+        if is_first {
+            self.line_up(bodies, particles);
+        }
+        self.crew.read(&self.lineup, (bodies, particles), &timing, is_first);
+        let leaves = self.crew.count_versions(&self.lineup, &mut self.versions);
+        if is_first || leaves {
+            self.find_pairs(bodies, settings);
+        }
+    }
+
+    /// Puts all rigid bodies in their places.
+    fn line_up(&mut self, bodies: &[Body], particles: &Particles) {
+        let role = |body: &Body| match &body.substance {
+            Substance::Rigid(rigid) => Some(match rigid.traits.motion {
+                Motion::Dynamic if body.is_awake() => Role::Free,
+                Motion::Kinematic => Role::Driven,
+                Motion::Dynamic | Motion::Fixed => Role::Still,
+            }),
+            _ => None,
+        };
+        let entry = |(index, body): (usize, &Body)| {
+            let center = Frame::of_particles(particles.position.get(body.particles.clone())?).center;
+            Some(Entry { body: index as u32, role: role(body)?, center })
+        };
+        let is_rigid = |(_, body): &(usize, &Body)| matches!(body.substance, Substance::Rigid(_));
+        let entries = bodies.iter().enumerate().filter(is_rigid).filter_map(entry).collect();
+        let old = std::mem::replace(&mut self.lineup, Lineup::new(entries, bodies.len()));
+        let old_crew = std::mem::replace(&mut self.crew, Crew::new(&self.lineup, bodies));
+        for (body, &place) in self.lineup.place_of.iter().enumerate() {
+            let before = old.place_of.get(body).copied().unwrap_or(NOBODY);
+            if place != NOBODY && before != NOBODY {
+                self.crew.recall(place as usize, &old_crew.memory(before as usize));
+            }
+        }
+        self.versions.resize(bodies.len(), 0);
+        self.groups = Groups::new(&self.lineup);
+    }
+
+    /// Brings the contacts of all pairs up to date. Returns how many points they have.
+    pub(crate) fn find_contacts(&mut self, bodies: &[Body], settings: &Settings, h: f32) -> usize {
+        let timing = timing(settings, h);
+        let scene = Scene {
+            bodies,
+            versions: &self.versions,
+            place_of: &self.lineup.place_of,
+            poses: &self.crew.poses,
+            velocities: &self.crew.velocities,
+            substeps: timing.substeps,
+            margin: timing.margin,
+        };
+        let Pairs { pairs, details } = &mut self.pairs;
+        if parallel::is_worthwhile(pairs.len(), WORTHWHILE) {
+            let mut chunks: Vec<_> = pairs.chunks_mut(CHUNK).zip(details.chunks_mut(CHUNK)).collect();
+            parallel::for_each(&mut chunks, true, |(pairs, details)| {
+                let scratch = &mut manifold::Scratch::default();
+                run(settings.instructions, Detect { scene, pairs, details, scratch });
+            });
+        } else {
+            run(settings.instructions, Detect { scene, pairs, details, scratch: &mut self.scratch });
+        }
+        self.pairs.pairs.iter().map(|pair| pair.points as usize).sum()
+    }
+
+    /// Makes the solver's rows.
+    pub(crate) fn prepare(&mut self, settings: &Settings, h: f32) {
+        self.softness = Softness::new(h, settings.separation_speed.unwrap_or(f32::INFINITY));
+        self.groups.sort_in(&self.pairs, &self.lineup);
+        let (poses, ground) = (&self.crew.poses, self.lineup.ground());
+        self.groups.prepare(&self.pairs, poses, ground, &mut self.crew.accumulated, settings.instructions);
+    }
+
+    /// One substep: forces, contacts, motion, contacts without bias.
+    pub(crate) fn substep(&mut self, settings: &Settings, h: f32, is_first: bool) {
+        let (timing, instructions) = (timing(settings, h), settings.instructions);
+        self.groups.meet(&mut self.crew, h, instructions);
+        self.crew.kick(&self.lineup, is_first, instructions);
+        self.groups.pass(Pass::Biased, &self.softness, &mut self.crew.velocities, instructions);
+        self.crew.advance(&self.lineup, &timing);
+        self.groups.pass(Pass::Relaxing, &self.softness, &mut self.crew.velocities, instructions);
+        self.groups.part(&mut self.crew.velocities, instructions);
+        self.groups.resist_rolling(&mut self.crew.velocities, instructions);
+    }
+
+    /// Writes the particles, and keeps the multipliers for the next step. A body that is not finite any more stays
+    /// where it was, and is told of.
+    pub(crate) fn finish(
+        &mut self,
+        bodies: &mut [Body],
+        particles: &mut Particles,
+        settings: &Settings,
+        h: f32,
+    ) -> Vec<Lost> {
+        self.keep_multipliers();
+        let mut lost = Vec::new();
+        for block in 0..self.lineup.solved / LANES {
+            let [positions, displacements] = self.crew.particles_of(block, settings.instructions);
+            for lane in 0..LANES {
+                let place = (block * LANES + lane) as u32;
+                if !self.lineup.is_written(place) {
+                    continue;
+                }
+                let index = self.lineup.places[place as usize] as usize;
+                let body = &mut bodies[index];
+                let vector = |rows: &[crate::simd::Row; 12], k: usize| {
+                    Vec3::new(rows[3 * k].0[lane], rows[3 * k + 1].0[lane], rows[3 * k + 2].0[lane])
+                };
+                let moved: [[Vec3; 2]; 4] =
+                    std::array::from_fn(|k| [vector(&positions, k), vector(&displacements, k)]);
+                if let Some(particle) = moved.iter().position(|[x, d]| !(x.is_finite() && d.is_finite())) {
+                    lost.push(Lost { body: index, particle: particle as u32 });
+                    continue;
+                }
+                for (i, [position, displacement]) in body.particles.clone().zip(moved) {
+                    particles.position[i] = position;
+                    particles.displacement[i] = displacement;
+                }
+                body.previous_step = h;
+            }
+        }
+        lost.sort_unstable_by_key(|lost| lost.body);
+        lost
+    }
+
+    fn keep_multipliers(&mut self) {
+        for group in self.groups.iter_mut().filter(|group| !group.active.is_empty()) {
+            group.forget_blows();
+            for (batch, header) in group.batches.iter().zip(&group.headers) {
+                let points = &group.points[batch.range()];
+                for (lane, &pair) in batch.pairs.iter().enumerate() {
+                    let detail = self.pairs.details.get_mut(pair as usize);
+                    if let Some(held) = detail.and_then(|detail| detail.held.as_deref_mut()) {
+                        prepare::keep(lane, header, points, held);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// From so many pairs on it pays to look at them side by side, …
+const WORTHWHILE: usize = 1024;
+/// … so many at a time.
+const CHUNK: usize = 256;
+
+fn timing(settings: &Settings, h: f32) -> Timing {
+    let substeps = settings.substeps as f32;
+    let step = h * substeps;
+    Timing {
+        h,
+        substeps,
+        gravity: settings.gravity,
+        damping: settings.damping,
+        margin: MARGIN + settings.gravity.length() * step * step,
+        instructions: settings.instructions,
+    }
+}

@@ -1,0 +1,195 @@
+//! From held contacts to rows for the solver, and back.
+
+use crate::simd::{LANES, Lanes, Matrix3x8, Row, Vec3x8, rows_at};
+
+use super::batch::{Batch, HeaderRows, NO_PAIR, PointRows};
+use super::held::Held;
+
+/// Where a body is, as two rows: centre, 1/m, 1/√I, response; first and second axis, two numbers of no concern here.
+pub(super) struct Poses<'a>(pub(super) &'a [Row]);
+
+/// Eight poses.
+pub(super) struct Frames<L> {
+    center: Vec3x8<L>,
+    axes: Matrix3x8<L>,
+    inverse_mass: L,
+    inverse_root_inertia: Vec3x8<L>,
+    pub(super) response: L,
+}
+
+impl<L: Lanes> Frames<L> {
+    /// √I⁻¹ Rᵀd: how an angular impulse along a direction changes the scaled rotation.
+    #[inline(always)]
+    pub(super) fn turn(&self, direction: Vec3x8<L>) -> Vec3x8<L> {
+        self.axes.apply_transposed(direction).scale(self.inverse_root_inertia)
+    }
+
+    #[inline(always)]
+    fn in_frame(&self, [x, y, z]: &[Vec3x8<L>; 3]) -> [Vec3x8<L>; 3] {
+        [self.axes.apply_transposed(*x), self.axes.apply_transposed(*y), self.axes.apply_transposed(*z)]
+    }
+}
+
+impl Poses<'_> {
+    #[inline(always)]
+    pub(super) fn gather<L: Lanes>(&self, places: &[u32; LANES]) -> Frames<L> {
+        let (mut firsts, mut seconds) = (*places, *places);
+        for lane in 0..LANES {
+            (firsts[lane], seconds[lane]) = (2 * places[lane], 2 * places[lane] + 1);
+        }
+        let (first, second) = (L::gather(rows_at(self.0, &firsts)), L::gather(rows_at(self.0, &seconds)));
+        let e0 = Vec3x8::new(second[0], second[1], second[2]);
+        let e1 = Vec3x8::new(second[3], second[4], second[5]);
+        Frames {
+            center: Vec3x8::new(first[0], first[1], first[2]),
+            axes: Matrix3x8([e0, e1, e0.cross(e1)]),
+            inverse_mass: first[3],
+            inverse_root_inertia: Vec3x8::new(first[4], first[5], first[6]),
+            response: first[7],
+        }
+    }
+}
+
+/// In lanes without a pair.
+static NOTHING: Held = Held::EMPTY;
+
+/// The contacts of a batch.
+#[inline(always)]
+fn held<'a>(batch: &Batch, contact_of: impl Fn(u32) -> Option<&'a Held>) -> [&'a Held; LANES] {
+    batch.pairs.map(|pair| if pair == NO_PAIR { &NOTHING } else { contact_of(pair).unwrap_or(&NOTHING) })
+}
+
+#[inline(always)]
+fn headers_of<'a>(held: &[&'a Held; LANES]) -> [&'a Row; LANES] {
+    let mut rows = [&NOTHING.header; LANES];
+    for lane in 0..LANES {
+        rows[lane] = &held[lane].header;
+    }
+    rows
+}
+
+/// The anchors and the friction of point k.
+#[inline(always)]
+fn rows_of<'a>(held: &[&'a Held; LANES], k: usize) -> ([&'a Row; LANES], [&'a Row; LANES]) {
+    let (mut anchors, mut friction) = ([&NOTHING.header; LANES], [&NOTHING.header; LANES]);
+    for lane in 0..LANES {
+        let point = &held[lane].points[k];
+        (anchors[lane], friction[lane]) = (&point.anchors, &point.friction);
+    }
+    (anchors, friction)
+}
+
+/// Fills the rows of a batch, and adds what its multipliers do to `accumulated`.
+#[inline(always)]
+pub(super) fn fill<'a, L: Lanes>(
+    batch: &Batch,
+    contact_of: impl Fn(u32) -> Option<&'a Held>,
+    poses: &Poses<'_>,
+    (header, points): (&mut HeaderRows, &mut [PointRows]),
+    accumulated: &mut [Row],
+) {
+    let (a, b) = (poses.gather::<L>(&batch.place_a), poses.gather::<L>(&batch.place_b));
+    let held = held(batch, contact_of);
+    let shared = L::gather(headers_of(&held));
+    let normal = Vec3x8::new(shared[0], shared[1], shared[2]);
+    let directions = with_tangents(normal);
+    normal.store(&mut header.normal);
+    directions[1].store(&mut header.tangents[0]);
+    directions[2].store(&mut header.tangents[1]);
+    shared[3].store(&mut header.friction);
+    shared[4].store(&mut header.restitution);
+    shared[5].store(&mut header.rolling_friction);
+
+    let mut sum_a = L::gather(rows_at(accumulated, &batch.a));
+    let mut sum_b = L::gather(rows_at(accumulated, &batch.b));
+    let mut impulse = Vec3x8::<L>::zero();
+    let (local_a, local_b) = (a.in_frame(&directions), b.in_frame(&directions));
+    let between = b.center - a.center;
+    for (k, rows) in points.iter_mut().enumerate() {
+        let (anchors, friction) = rows_of(&held, k);
+        let (anchors, friction) = (L::gather(anchors), L::gather(friction));
+        let on_a = Vec3x8::new(anchors[0], anchors[1], anchors[2]);
+        let on_b = Vec3x8::new(anchors[4], anchors[5], anchors[6]);
+        let distance = between + (b.axes.apply(on_b) - a.axes.apply(on_a));
+        let drift = distance + Vec3x8::new(friction[0], friction[1], friction[2]);
+        let tangential = Vec3x8::new(friction[4], friction[5], friction[6]);
+        let impulses = [anchors[3], directions[1].dot(tangential), directions[2].dot(tangential)];
+        let mut masses = [L::splat(0.0); 3];
+        let [first_a, second_a] = &mut rows.tangents_a;
+        let [first_b, second_b] = &mut rows.tangents_b;
+        let jacobians = [(&mut rows.normal_a, &mut rows.normal_b), (first_a, first_b), (second_a, second_b)];
+        for (j, (row_a, row_b)) in jacobians.into_iter().enumerate() {
+            let ja = on_a.cross(local_a[j]).scale(a.inverse_root_inertia);
+            let jb = on_b.cross(local_b[j]).scale(b.inverse_root_inertia);
+            let compliance = a.inverse_mass
+                + b.inverse_mass
+                + a.response * ja.length_squared()
+                + b.response * jb.length_squared();
+            masses[j] = L::splat(1.0) / compliance.max(L::splat(LEAST_COMPLIANCE));
+            ja.store(row_a);
+            jb.store(row_b);
+            turn(&mut sum_a, ja, -(impulses[j] * a.response));
+            turn(&mut sum_b, jb, impulses[j] * b.response);
+            impulse = impulse + directions[j] * impulses[j];
+        }
+        masses[0].store(&mut rows.normal_mass);
+        masses[1].min(masses[2]).store(&mut rows.tangent_mass);
+        normal.dot(distance).store(&mut rows.separation);
+        impulses[0].store(&mut rows.normal_impulse);
+        for axis in 0..2 {
+            impulses[axis + 1].store(&mut rows.tangent_impulses[axis]);
+            directions[axis + 1].dot(drift).store(&mut rows.drift[axis]);
+        }
+        rows.slides = Row::ZERO;
+    }
+    shift(&mut sum_a, impulse, -a.inverse_mass);
+    shift(&mut sum_b, impulse, b.inverse_mass);
+    L::scatter(sum_a, accumulated, &batch.a);
+    L::scatter(sum_b, accumulated, &batch.b);
+}
+
+/// Below any real one, in 1/kg: it keeps empty lanes finite.
+const LEAST_COMPLIANCE: f32 = 1e-25;
+
+#[inline(always)]
+fn turn<L: Lanes>(columns: &mut [L; LANES], jacobian: Vec3x8<L>, impulse: L) {
+    columns[4] = columns[4] + jacobian.x * impulse;
+    columns[5] = columns[5] + jacobian.y * impulse;
+    columns[6] = columns[6] + jacobian.z * impulse;
+}
+
+#[inline(always)]
+fn shift<L: Lanes>(columns: &mut [L; LANES], impulse: Vec3x8<L>, inverse_mass: L) {
+    columns[0] = columns[0] + impulse.x * inverse_mass;
+    columns[1] = columns[1] + impulse.y * inverse_mass;
+    columns[2] = columns[2] + impulse.z * inverse_mass;
+}
+
+/// A right-handed frame around a unit vector (Duff et al. 2017, Building an orthonormal basis, revisited).
+#[inline(always)]
+fn with_tangents<L: Lanes>(n: Vec3x8<L>) -> [Vec3x8<L>; 3] {
+    let one = L::splat(1.0);
+    let sign = L::splat(0.0).greater(n.z).select(-one, one);
+    let a = -one / (sign + n.z);
+    let b = n.x * n.y * a;
+    let first = Vec3x8::new(one + sign * n.x * n.x * a, sign * b, -(sign * n.x));
+    let second = Vec3x8::new(b, sign + n.y * n.y * a, -n.y);
+    [n, first, second]
+}
+
+/// Keeps the multipliers of a batch for the next step, and lets the anchors of what has slid follow.
+pub(super) fn keep(lane: usize, header: &HeaderRows, points: &[PointRows], held: &mut Held) {
+    let tangent = |axis: usize, factor: f32| {
+        let rows = &header.tangents[axis];
+        glam::Vec3::new(rows[0].0[lane], rows[1].0[lane], rows[2].0[lane]) * factor
+    };
+    for (point, rows) in held.points.iter_mut().zip(points) {
+        let impulses = [0, 1].map(|axis| rows.tangent_impulses[axis].0[lane]);
+        let tangential = tangent(0, impulses[0]) + tangent(1, impulses[1]);
+        let mut slip = point.slip();
+        if rows.slides.0[lane] > 0.0 {
+            slip -= tangent(0, rows.drift[0].0[lane]) + tangent(1, rows.drift[1].0[lane]);
+        }
+        point.continue_from(rows.normal_impulse.0[lane], tangential, slip);
+    }
+}
