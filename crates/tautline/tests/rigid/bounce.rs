@@ -55,7 +55,8 @@ fn two_balls_exchange_their_momentum() {
     for ratio in [1.0, 3.0, 100.0] {
         let mut world = World::new(weightless()).unwrap();
         let ball = Arc::new(Shape::sphere(0.2).unwrap());
-        let body = |x: f32, mass: f32| RigidBody::new(&ball).position(Vec3::X * x).mass(mass).restitution(1.0);
+        let body =
+            |x: f32, mass: f32| RigidBody::new(&ball).position(Vec3::X * x).mass(mass).restitution(1.0);
         let first = add(&mut world, body(-1.0, ratio).velocity(Vec3::X * 2.0));
         let second = add(&mut world, body(0.0, 1.0));
         super::run(&mut world, 1.0);
@@ -95,7 +96,11 @@ fn rolling_friction_slows_a_ball_as_its_moment_says() {
     let (radius, length) = (0.25, 0.005);
     world.set_settings(awake()).unwrap();
     let ball = Arc::new(Shape::sphere(radius).unwrap());
-    let surface = tautline::Surface { rolling_friction: length, friction_rule: tautline::Combine::Maximum, ..Default::default() };
+    let surface = tautline::Surface {
+        rolling_friction: length,
+        friction_rule: tautline::Combine::Maximum,
+        ..Default::default()
+    };
     let body = RigidBody::new(&ball).position(Vec3::Y * radius).velocity(Vec3::X * 2.0);
     let ball = add(&mut world, body.angular_velocity(Vec3::Z * (-2.0 / radius)).surface(surface));
     super::run(&mut world, 3.0);

@@ -33,13 +33,15 @@ fn a_tumbling_box_keeps_its_energy_and_angular_momentum() {
 
 #[test]
 fn the_pose_given_is_the_pose_read() {
-    let shape = Arc::new(Shape::convex_hull(&[
-        Vec3::ZERO, Vec3::X, Vec3::Y * 2.0, Vec3::Z * 3.0, Vec3::new(1.0, 1.0, 1.0),
-    ]).unwrap());
+    let shape = Arc::new(
+        Shape::convex_hull(&[Vec3::ZERO, Vec3::X, Vec3::Y * 2.0, Vec3::Z * 3.0, Vec3::new(1.0, 1.0, 1.0)])
+            .unwrap(),
+    );
     let (position, rotation) = (Vec3::new(3.0, -2.0, 7.0), Quat::from_xyzw(0.1, 0.7, -0.3, 0.6).normalize());
     let spin = Vec3::new(0.3, -1.0, 2.0);
     let mut world = World::new(weightless()).unwrap();
-    let body = add(&mut world, RigidBody::new(&shape).position(position).rotation(rotation).angular_velocity(spin));
+    let body =
+        add(&mut world, RigidBody::new(&shape).position(position).rotation(rotation).angular_velocity(spin));
     let view = world.body(body).unwrap();
     let (read_position, read_rotation) = view.pose().unwrap();
     assert!(read_position.distance(position) < 1e-5);

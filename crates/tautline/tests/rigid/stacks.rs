@@ -10,7 +10,9 @@ fn towers_stand() {
         let mut world = World::new(awake()).unwrap();
         floor(&mut world);
         let bodies: Vec<_> = (0..count)
-            .map(|i| add(&mut world, RigidBody::new(&cube(1.0)).mass(1.0).position(Vec3::Y * (i as f32 + 0.5))))
+            .map(|i| {
+                add(&mut world, RigidBody::new(&cube(1.0)).mass(1.0).position(Vec3::Y * (i as f32 + 0.5)))
+            })
             .collect();
         run(&mut world, 10.0);
         for (i, &body) in bodies.iter().enumerate() {

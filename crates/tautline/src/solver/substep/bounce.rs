@@ -65,14 +65,13 @@ impl Bounce {
         for (bounce, rows) in self.points.iter_mut().zip(points) {
             let met = L::load(&bounce.meets);
             let normal = met.and(L::load(&rows.normal_impulse));
-            let tangents = [
-                met.and(L::load(&rows.tangent_impulses[0])),
-                met.and(L::load(&rows.tangent_impulses[1])),
-            ];
+            let tangents =
+                [met.and(L::load(&rows.tangent_impulses[0])), met.and(L::load(&rows.tangent_impulses[1]))];
             push_apart(header, rows, [-normal, -tangents[0], -tangents[1]], &mut sum_a, &mut sum_b);
             (L::load(&rows.normal_impulse) - normal).store(&mut rows.normal_impulse);
             for axis in 0..2 {
-                (L::load(&rows.tangent_impulses[axis]) - tangents[axis]).store(&mut rows.tangent_impulses[axis]);
+                (L::load(&rows.tangent_impulses[axis]) - tangents[axis])
+                    .store(&mut rows.tangent_impulses[axis]);
             }
 
             let speed = opening(header, rows, &a, &b);
@@ -83,7 +82,8 @@ impl Bounce {
             let meets = comes_near.and(least.min(zero).greater(speed)).and(restitution.greater(zero));
             let half = acceleration * L::splat(0.5);
             let ahead = separation.max(zero);
-            let met_at = ((speed + half) * (speed + half) - (acceleration + acceleration) * ahead).max(zero).sqrt();
+            let met_at =
+                ((speed + half) * (speed + half) - (acceleration + acceleration) * ahead).max(zero).sqrt();
             (restitution * met_at - half).store(&mut bounce.target);
             meets.store(&mut bounce.meets);
 

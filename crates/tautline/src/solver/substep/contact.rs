@@ -99,7 +99,6 @@ impl<L: Lanes> Body<L> {
     fn scatter(self, rows: &mut [Row], index: &[u32; LANES]) {
         L::scatter(self.columns(), rows, index);
     }
-
 }
 
 /// Visits every batch once, in order.
@@ -206,7 +205,8 @@ const TINY: f32 = 1e-30;
 /// How fast the surfaces of a point move apart along the normal, over a substep, in m.
 #[inline(always)]
 pub(super) fn opening<L: Lanes>(header: &HeaderRows, rows: &PointRows, a: &Body<L>, b: &Body<L>) -> L {
-    let turning = Vec3x8::<L>::load(&rows.normal_b).dot(b.angular) - Vec3x8::<L>::load(&rows.normal_a).dot(a.angular);
+    let turning =
+        Vec3x8::<L>::load(&rows.normal_b).dot(b.angular) - Vec3x8::<L>::load(&rows.normal_a).dot(a.angular);
     Vec3x8::load(&header.normal).dot(b.linear - a.linear) + turning
 }
 

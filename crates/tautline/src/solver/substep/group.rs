@@ -335,7 +335,9 @@ impl Kernel for Visit<'_> {
         // The kind is a constant in each of the two copies.
         match self.kind {
             Pass::Biased => pass::<L>(Pass::Biased, self.softness, batches, headers, points, self.velocities),
-            Pass::Relaxing => pass::<L>(Pass::Relaxing, self.softness, batches, headers, points, self.velocities),
+            Pass::Relaxing => {
+                pass::<L>(Pass::Relaxing, self.softness, batches, headers, points, self.velocities)
+            }
         }
     }
 }

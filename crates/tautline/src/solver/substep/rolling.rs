@@ -42,14 +42,16 @@ impl Rolling {
         (batch, header, points): (&Batch, &HeaderRows, &[PointRows]),
         velocities: &mut [Row],
     ) {
-        let (mut a, mut b) = (Body::<L>::gather(velocities, &batch.a), Body::<L>::gather(velocities, &batch.b));
+        let (mut a, mut b) =
+            (Body::<L>::gather(velocities, &batch.a), Body::<L>::gather(velocities, &batch.b));
         let mut pressed = L::splat(0.0);
         for point in points {
             pressed = pressed + L::load(&point.normal_impulse);
         }
         let limit = pressed * L::load(&header.rolling_friction);
         for axis in 0..3 {
-            let (turn_a, turn_b) = (Vec3x8::<L>::load(&self.turns_a[axis]), Vec3x8::<L>::load(&self.turns_b[axis]));
+            let (turn_a, turn_b) =
+                (Vec3x8::<L>::load(&self.turns_a[axis]), Vec3x8::<L>::load(&self.turns_b[axis]));
             let turning = turn_b.dot(b.angular) - turn_a.dot(a.angular);
             let impulse = (-turning * L::load(&self.masses[axis])).min(limit).max(-limit);
             a.angular = a.angular - turn_a * (impulse * a.response);
