@@ -93,8 +93,8 @@ impl Bounce {
             separation.store(&mut bounce.separation);
             is_off.select(L::splat(OUT_OF_REACH), separation).store(&mut rows.separation);
         }
-        L::scatter(sum_a.columns(), accumulated, &batch.a);
-        L::scatter(sum_b.columns(), accumulated, &batch.b);
+        L::scatter(sum_a.changes(), accumulated, &batch.a);
+        L::scatter(sum_b.changes(), accumulated, &batch.b);
     }
 
     /// After the relaxing pass: the contacts that were not felt have moved too.

@@ -89,6 +89,13 @@ impl<L: Lanes> Body<L> {
         Self { linear: Vec3x8::new(x, y, z), angular: Vec3x8::new(p, q, r), ..*self }
     }
 
+    /// The velocities as something to be added to others.
+    #[inline(always)]
+    pub(super) fn changes(self) -> [L; LANES] {
+        let (v, w, zero) = (self.linear, self.angular, L::splat(0.0));
+        [v.x, v.y, v.z, zero, w.x, w.y, w.z, zero]
+    }
+
     #[inline(always)]
     pub(super) fn columns(self) -> [L; LANES] {
         let (v, w) = (self.linear, self.angular);
@@ -141,7 +148,6 @@ fn solve<L: Lanes>(
     let normal = Vec3x8::<L>::load(&header.normal);
     let (normal_a, normal_b) = (Vec3x8::load(&rows.normal_a), Vec3x8::load(&rows.normal_b));
     let relative = b.linear - a.linear;
-    let opening = normal.dot(relative) + (normal_b.dot(b.angular) - normal_a.dot(a.angular));
     let impulse = L::load(&rows.normal_impulse);
 
     let tangents = load_both::<L>(&header.tangents);
@@ -169,6 +175,16 @@ fn solve<L: Lanes>(
     friction[0].store(&mut rows.tangent_impulses[0]);
     friction[1].store(&mut rows.tangent_impulses[1]);
 
+    let changes = [friction[0] - old[0], friction[1] - old[1]];
+    let linear = tangents[0] * changes[0] + tangents[1] * changes[1];
+    a.linear = a.linear - linear * a.inverse_mass;
+    b.linear = b.linear + linear * b.inverse_mass;
+    let turn_a = tangents_a[0] * changes[0] + tangents_a[1] * changes[1];
+    let turn_b = tangents_b[0] * changes[0] + tangents_b[1] * changes[1];
+    a.angular = a.angular - turn_a * a.response;
+    b.angular = b.angular + turn_b * b.response;
+
+    let opening = normal.dot(b.linear - a.linear) + (normal_b.dot(b.angular) - normal_a.dot(a.angular));
     let separation = L::load(&rows.separation);
     let apart = separation.greater(zero);
     let mass = L::load(&rows.normal_mass);
@@ -189,14 +205,10 @@ fn solve<L: Lanes>(
     new.store(&mut rows.normal_impulse);
 
     let change = new - impulse;
-    let changes = [friction[0] - old[0], friction[1] - old[1]];
-    let linear = normal * change + tangents[0] * changes[0] + tangents[1] * changes[1];
-    a.linear = a.linear - linear * a.inverse_mass;
-    b.linear = b.linear + linear * b.inverse_mass;
-    let turn_a = normal_a * change + tangents_a[0] * changes[0] + tangents_a[1] * changes[1];
-    let turn_b = normal_b * change + tangents_b[0] * changes[0] + tangents_b[1] * changes[1];
-    a.angular = a.angular - turn_a * a.response;
-    b.angular = b.angular + turn_b * b.response;
+    a.linear = a.linear - normal * (change * a.inverse_mass);
+    b.linear = b.linear + normal * (change * b.inverse_mass);
+    a.angular = a.angular - normal_a * (change * a.response);
+    b.angular = b.angular + normal_b * (change * b.response);
 }
 
 /// Squared multipliers below this are none.

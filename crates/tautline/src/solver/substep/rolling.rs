@@ -17,6 +17,8 @@ pub(super) struct Rolling {
     turns_a: [Rows3; 3],
     turns_b: [Rows3; 3],
     masses: [Row; 3],
+    /// The multipliers, in kg m².
+    impulses: [Row; 3],
 }
 
 impl Rolling {
@@ -38,7 +40,7 @@ impl Rolling {
 
     #[inline(always)]
     pub(super) fn resist<L: Lanes>(
-        &self,
+        &mut self,
         (batch, header, points): (&Batch, &HeaderRows, &[PointRows]),
         velocities: &mut [Row],
     ) {
@@ -53,7 +55,10 @@ impl Rolling {
             let (turn_a, turn_b) =
                 (Vec3x8::<L>::load(&self.turns_a[axis]), Vec3x8::<L>::load(&self.turns_b[axis]));
             let turning = turn_b.dot(b.angular) - turn_a.dot(a.angular);
-            let impulse = (-turning * L::load(&self.masses[axis])).min(limit).max(-limit);
+            let old = L::load(&self.impulses[axis]);
+            let new = (old - turning * L::load(&self.masses[axis])).min(limit).max(-limit);
+            new.store(&mut self.impulses[axis]);
+            let impulse = new - old;
             a.angular = a.angular - turn_a * (impulse * a.response);
             b.angular = b.angular + turn_b * (impulse * b.response);
         }
