@@ -16,6 +16,7 @@ mod held;
 mod lineup;
 mod pairs;
 mod prepare;
+mod pull;
 mod rigidity;
 mod rolling;
 
@@ -65,6 +66,12 @@ pub(crate) struct Lost {
 impl RigidSolver {
     /// Has the lineup made anew before the next step.
     pub(crate) fn invalidate(&mut self) {
+        self.is_stale = true;
+    }
+
+    /// Has the contacts of a body found anew before the next step, as if it had just come.
+    pub(crate) fn forget_contacts(&mut self, body: usize) {
+        self.pairs.forget(body as u32);
         self.is_stale = true;
     }
 
