@@ -41,14 +41,14 @@ impl World {
         let has_matter = self.bodies.iter().any(Body::is_awake_matter);
         let lent = self.lend_weight();
         for index in 0..self.settings.substeps {
-            self.pull_grabs(h);
+            self.pull_grabs(h, (index + 1) as f32 / self.settings.substeps as f32);
             self.rigid.substep(&self.settings, h, index == 0);
             watch.lap(Phase::Solve);
             if has_matter {
                 self.substep(h, &mut report, &mut watch);
             }
         }
-        self.take_back_weight(&lent);
+        self.rest_grabs(&lent);
         self.finish_rigid(h, &mut report);
         watch.lap(Phase::Integrate);
         self.rest(dt);

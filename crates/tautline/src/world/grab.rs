@@ -62,6 +62,9 @@ struct Grab {
     handle: GrabHandle,
     body: BodyHandle,
     place: Place,
+    /// Where it was drawn to at the end of the last step, and where it is to be at the end of the next, in m: in
+    /// between it goes straight, so that it moves evenly and not by jerks.
+    before: Vec3,
     target: Vec3,
     grip: Grip,
 }
@@ -93,7 +96,11 @@ impl Grabs {
                 Place::Point(point) => body.is_rigid() && point.is_finite(),
                 Place::Particle(particle) => !body.is_rigid() && (particle as usize) < body.particles.len(),
             });
-            is_there && grab.target.is_finite() && grab.grip.validate().is_ok() && grab.handle.0 < self.next
+            is_there
+                && grab.before.is_finite()
+                && grab.target.is_finite()
+                && grab.grip.validate().is_ok()
+                && grab.handle.0 < self.next
         };
         self.held.iter().all(is_sound) && self.held.is_sorted_by(|a, b| a.handle < b.handle)
     }
@@ -132,7 +139,7 @@ impl World {
         };
         let handle = GrabHandle(self.grabs.next);
         self.grabs.next += 1;
-        self.grabs.held.push(Grab { handle, body, place, target, grip });
+        self.grabs.held.push(Grab { handle, body, place, before: target, target, grip });
         self.wake_body(index);
         Ok(handle)
     }
@@ -218,8 +225,9 @@ impl World {
         lent
     }
 
-    /// Undoes [`World::lend_weight`], but for bodies that have been frozen since.
-    pub(crate) fn take_back_weight(&mut self, lent: &[(usize, f32)]) {
+    /// Ends a step: targets are reached. Undoes [`World::lend_weight`], but for bodies that have been frozen since.
+    pub(crate) fn rest_grabs(&mut self, lent: &[(usize, f32)]) {
+        self.grabs.held.iter_mut().for_each(|grab| grab.before = grab.target);
         // In reverse, since one may be held twice.
         for &(i, inverse_mass) in lent.iter().rev() {
             if self.particles.inverse_mass[i] > 0.0 {
@@ -228,25 +236,27 @@ impl World {
         }
     }
 
-    /// Draws everything that is held to its target, before a substep of `h` (s).
-    pub(crate) fn pull_grabs(&mut self, h: f32) {
+    /// Draws everything that is held to its target, before a substep of `h` (s), after which the share `done` of the
+    /// step is over.
+    pub(crate) fn pull_grabs(&mut self, h: f32, done: f32) {
         for grab in &self.grabs.held {
             let Ok(index) = self.slots.index(grab.body) else { continue };
             let body = &self.bodies[index];
             // What gravity is about to do counts as done.
             let scale = body.rigid().map_or(1.0, |rigid| rigid.traits.gravity_scale);
             let fall = self.settings.gravity * (scale * h);
+            let target = grab.before + (grab.target - grab.before) * done;
             let limit = grab.grip.max_acceleration * h;
             match grab.place {
                 Place::Point(point) => self.rigid.pull(index, point, limit * h, |at| {
                     let velocity = at.displacement / h + fall;
-                    grab.grip.velocity_change(at.position - grab.target, velocity, h) * h
+                    grab.grip.velocity_change(at.position - target, velocity, h) * h
                 }),
                 Place::Particle(particle) if body.is_awake() => {
                     let (i, time) = (body.particles.start + particle as usize, body.displacement_time());
                     if self.particles.inverse_mass[i] > 0.0 {
                         let velocity = self.particles.velocity(i, time) + fall;
-                        let gap = self.particles.position[i] - grab.target;
+                        let gap = self.particles.position[i] - target;
                         let change = grab.grip.velocity_change(gap, velocity, h).clamp_length_max(limit);
                         self.particles.displacement[i] += change * time;
                     }

@@ -65,7 +65,7 @@ fn a_fixed_body_that_is_moved_away_leaves_what_it_carried_to_fall() {
     assert!((center(&world, ball).y - 0.75).abs() < 1e-3);
     world.set_pose(shelf, Vec3::new(0.0, -2.0, 0.0), Quat::IDENTITY).unwrap();
     run(&mut world, 0.4);
-    assert!((center(&world, ball).y - (0.75 - 0.5 * 9.81 * 0.16)).abs() < 2e-3);
+    assert!((center(&world, ball).y - (0.75 - 0.5 * 9.81 * 0.16)).abs() < 1e-2);
     run(&mut world, 1.0);
     assert!((center(&world, ball).y + 1.25).abs() < 1e-2, "it lies on the shelf again");
 }
@@ -77,7 +77,7 @@ fn what_moves_a_body_can_be_changed_and_its_mass_stays() {
     let body = RigidBody::new(&plank()).mass(3.0).rotation(rotation).velocity(Vec3::X).fixed();
     let body = add(&mut world, body);
     run(&mut world, 0.2);
-    assert_eq!(center(&world, body), Vec3::ZERO);
+    assert!(center(&world, body).length() < 1e-6);
     let moments = world.body(body).unwrap().principal_moments();
     world.set_motion(body, Motion::Kinematic).unwrap();
     world.set_velocity(body, Vec3::X).unwrap();

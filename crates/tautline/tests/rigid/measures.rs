@@ -75,7 +75,7 @@ fn penetration_of_half_spaces_and_meshes_counts_radii_and_only_what_can_collide(
     assert!(count == 1 && (depth - 0.02).abs() < 1e-6, "{depth}");
     add(&mut world, RigidBody::new(&ball).position(Vec3::new(3.0, 0.1, 0.0)).fixed());
     add(&mut world, RigidBody::new(&ball).position(Vec3::new(6.0, 0.1, 0.0)).kinematic());
-    let nothing = CollisionGroups { memberships: 1, filter: 2 };
+    let nothing = CollisionGroups { memberships: 0, filter: 0 };
     add(&mut world, RigidBody::new(&ball).position(Vec3::new(0.0, 0.9, 0.0)).groups(nothing));
     assert_eq!(deepest(&world), (count, depth), "these collide with nothing that is there");
     let mesh = tautline::mesh::primitives::grid(5, 5, 4.0, 4.0).unwrap();

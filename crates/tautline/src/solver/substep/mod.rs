@@ -96,7 +96,7 @@ impl RigidSolver {
     /// Reads the bodies and finds out who may meet whom.
     pub(crate) fn begin(&mut self, bodies: &[Body], particles: &Particles, settings: &Settings, h: f32) {
         let timing = timing(settings, h);
-        let is_first = std::mem::take(&mut self.is_stale);
+        let is_first = std::mem::take(&mut self.is_stale) || self.lineup.places.is_empty();
         if is_first {
             self.line_up(bodies, particles);
         }

@@ -38,12 +38,13 @@ impl RigidSolver {
             |rows: &super::block::Rows3| Vec3::new(rows[0].0[lane], rows[1].0[lane], rows[2].0[lane]);
         let matrix = |[x, y, z]: &[super::block::Rows3; 3]| Mat3::from_cols(column(x), column(y), column(z));
         let (arm, start) = (matrix(&block.axes) * point, matrix(&block.start_axes));
+        let center = column(&block.center) + column(&block.shift);
         let (inertia, root) = (column(&block.constants.inertia), column(&block.constants.root_inertia));
         let row = &self.crew.velocities[place].0;
         // The row's rotation is √I ω in the frame of the step's start, see `block`.
         let turn = start * (Vec3::new(row[4], row[5], row[6]) / root);
         let displacement = Vec3::new(row[0], row[1], row[2]) + turn.cross(arm);
-        let wanted = change(PointMotion { position: column(&block.center) + arm, displacement });
+        let wanted = change(PointMotion { position: center + arm, displacement });
 
         let turned_by = |j: Vec3| start.transpose() * arm.cross(j) / inertia;
         let response = |j: Vec3| j + (start * turned_by(j)).cross(arm);
