@@ -116,8 +116,8 @@ impl World {
     ///
     /// let mut world = World::new(Settings::default())?;
     /// let ball = world.add(RigidBody::new(&Arc::new(Shape::sphere(0.1)?)))?;
-    /// let grab = world.grab(ball, Vec3::Y * 0.1, Grip::default())?;
-    /// world.move_grab(grab, Vec3::new(1.0, 0.1, 0.0))?;
+    /// let grab = world.grab(ball, Vec3::ZERO, Grip::default())?;
+    /// world.move_grab(grab, Vec3::X)?;
     /// for _ in 0..60 {
     ///     world.step(1.0 / 60.0)?;
     /// }
