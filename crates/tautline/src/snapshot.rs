@@ -1,7 +1,7 @@
 //! A world as bytes, to be restored anywhere.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use serde::{Deserialize, Serialize};
 
@@ -12,7 +12,7 @@ use crate::particles::Particles;
 use crate::settings::Settings;
 use crate::slots::Slots;
 use crate::solver::substep::RigidSolver;
-use crate::world::{Scratch, World};
+use crate::world::{Grabs, Scratch, World};
 
 const MAGIC: [u8; 8] = *b"tautline";
 const VERSION: u32 = 1;
@@ -27,6 +27,7 @@ struct Stored {
     truss_of_body: Vec<Option<u32>>,
     slots: Slots,
     pairs: PairCache,
+    grabs: Grabs,
     time: f64,
 }
 
@@ -43,6 +44,7 @@ impl World {
             truss_of_body,
             slots: self.slots.clone(),
             pairs: self.pairs.clone(),
+            grabs: self.grabs.clone(),
             time: self.time,
         };
         let mut bytes = MAGIC.to_vec();
@@ -114,9 +116,12 @@ impl Stored {
         if next != self.particles.len() || !self.pairs.is_valid(self.bodies.len()) || !self.time.is_finite() {
             return Err(refuse("its particles or pairs disagree with its bodies"));
         }
-        let Self { settings, particles, bodies, slots, pairs, time, .. } = self;
-        let rigid = RigidSolver::default();
-        Ok(World { settings, particles, bodies, slots, pairs, rigid, time, scratch: Scratch::default() })
+        if !self.grabs.is_valid(&self.slots, &self.bodies) {
+            return Err(refuse("it holds what is not there"));
+        }
+        let Self { settings, particles, bodies, slots, pairs, grabs, time, .. } = self;
+        let (rigid, index, scratch) = (RigidSolver::default(), OnceLock::new(), Scratch::default());
+        Ok(World { settings, particles, bodies, slots, pairs, rigid, grabs, index, time, scratch })
     }
 }
 

@@ -1,7 +1,13 @@
 //! Rigid bodies of four particles: how they move, touch, bounce and rest.
 
 mod bounce;
+mod control;
+mod forces;
+mod measures;
 mod motion;
+mod picking;
+mod queries;
+mod refusals;
 mod stacks;
 
 use std::sync::Arc;

@@ -70,7 +70,7 @@ pub(super) struct Crew {
     /// What the contacts' multipliers add to each velocity in a substep.
     pub(super) accumulated: Vec<Row>,
     /// Velocities when `accumulated` was last brought up to date.
-    before: Vec<Row>,
+    pub(super) before: Vec<Row>,
     /// What forces add to each velocity in a substep.
     pub(super) kicks: Vec<Row>,
 }

@@ -16,6 +16,7 @@ mod held;
 mod lineup;
 mod pairs;
 mod prepare;
+mod pull;
 mod rigidity;
 mod rolling;
 
@@ -68,6 +69,12 @@ impl RigidSolver {
         self.is_stale = true;
     }
 
+    /// Has the contacts of a body found anew before the next step, as if it had just come.
+    pub(crate) fn forget_contacts(&mut self, body: usize) {
+        self.pairs.forget(body as u32);
+        self.is_stale = true;
+    }
+
     /// Forgets a body that is removed; those behind it move down.
     pub(crate) fn remove_body(&mut self, body: usize) {
         self.pairs.remove_body(body as u32);
@@ -89,7 +96,7 @@ impl RigidSolver {
     /// Reads the bodies and finds out who may meet whom.
     pub(crate) fn begin(&mut self, bodies: &[Body], particles: &Particles, settings: &Settings, h: f32) {
         let timing = timing(settings, h);
-        let is_first = std::mem::take(&mut self.is_stale);
+        let is_first = std::mem::take(&mut self.is_stale) || self.lineup.places.is_empty();
         if is_first {
             self.line_up(bodies, particles);
         }

@@ -83,13 +83,18 @@ impl Pairs {
 
     /// Forgets the pairs of a body that is removed; the bodies behind it move down.
     pub(super) fn remove_body(&mut self, body: u32) {
-        let mut keep =
-            self.pairs.iter().map(|pair| pair.a != body && pair.b != body).collect::<Vec<_>>().into_iter();
-        self.details.retain(|_| keep.next() == Some(true));
-        self.pairs.retain(|pair| pair.a != body && pair.b != body);
+        self.forget(body);
         for pair in &mut self.pairs {
             pair.a -= u32::from(pair.a > body);
             pair.b -= u32::from(pair.b > body);
         }
+    }
+
+    /// Forgets the pairs of a body.
+    pub(super) fn forget(&mut self, body: u32) {
+        let mut keep =
+            self.pairs.iter().map(|pair| pair.a != body && pair.b != body).collect::<Vec<_>>().into_iter();
+        self.details.retain(|_| keep.next() == Some(true));
+        self.pairs.retain(|pair| pair.a != body && pair.b != body);
     }
 }
