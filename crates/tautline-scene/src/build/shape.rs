@@ -97,12 +97,11 @@ fn shape_of(shape: &Shape) -> Result<tautline::Shape, Error> {
         Shape::Cylinder { radius, height, segments: None } => {
             tautline::Shape::cylinder(radius, height / 2.0)
         }
-        Shape::Torus { .. } | Shape::Mesh(_) | Shape::File(_) => tautline::Shape::convex_hull(&mesh_of(shape)?.positions),
+        Shape::Torus { .. } | Shape::Mesh(_) | Shape::File(_) => tautline::Shape::from_mesh(&mesh_of(shape)?),
         Shape::Compound { ref parts } => compound(parts),
-        Shape::Surface(ref surface) => tautline::Shape::convex_hull(&sheet_of(surface)?.positions),
+        Shape::Surface(ref surface) => tautline::Shape::triangle_mesh(&sheet_of(surface)?),
         Shape::HeightField { columns, rows, cell_size, ref heights } => {
-            let _ = (columns, rows, cell_size, heights);
-            tautline::Shape::sphere(1.0)
+            tautline::Shape::height_field(columns, rows, cell_size, heights)
         }
         Shape::Tetrahedron { .. }
         | Shape::Octahedron { .. }
