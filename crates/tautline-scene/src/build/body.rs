@@ -6,7 +6,7 @@ use std::f32::consts::PI;
 use tautline::mesh::TriMesh;
 use tautline::{BodyHandle, Error, Quat, Vec3, World};
 
-use super::rigid::{rigid_body, truss_body};
+use super::rigid::{rigid_body, surface, truss_body};
 use super::shape::{Make, Solids, triangles, unread};
 use super::wall;
 use super::{Look, Part};
@@ -63,7 +63,9 @@ impl Builder {
         let solid = self.solids.get(&rigid.shape).map_err(|error| Refusal { field: ".shape", error })?;
         let body = match solid.make {
             Make::Rigid(shape) => self.world.add(rigid_body(rigid, &shape)),
-            Make::Truss { truss, origin, volume } => self.world.add(truss_body(rigid, &truss, origin, volume)),
+            Make::Truss { truss, origin, volume } => {
+                self.world.add(truss_body(rigid, &truss, origin, volume))
+            }
         }?;
         let color = match rigid.color {
             None if rigid.motion() == Motion::Fixed => GREY,
@@ -142,9 +144,9 @@ impl Builder {
     }
 
     fn add_half_space(&mut self, name: String, half_space: &HalfSpace) -> Result<(), Refusal> {
-        let HalfSpace { normal, offset, friction, restitution, color, .. } = half_space;
+        let HalfSpace { normal, offset, friction, restitution, rolling_friction, color, .. } = half_space;
         let wall = tautline::HalfSpace::new(Vec3::from(*normal), *offset);
-        let wall = wall.surface(wall_surface(*friction, *restitution));
+        let wall = wall.surface(surface(*friction, *restitution, *rolling_friction));
         let body = self.world.add(wall)?;
         // What is drawn of it depends on where the other bodies are: see `finish`.
         self.push(name, color.map_or(GREY, |color| color.0), body, Look::Wall(TriMesh::default()));
@@ -154,7 +156,7 @@ impl Builder {
     fn add_room(&mut self, name: &str, room: &Room) -> Result<(), Refusal> {
         for side in wall::sides(room) {
             let wall = tautline::HalfSpace::new(side.normal, side.offset);
-            let wall = wall.surface(wall_surface(room.friction, room.restitution));
+            let wall = wall.surface(surface(room.friction, room.restitution, room.rolling_friction));
             let body = self.world.add(wall)?;
             let color = room.color.map_or(GREY, |color| color.0);
             self.push(format!("{name} {}", side.name), color, body, Look::Wall(side.mesh));
@@ -203,10 +205,6 @@ impl Builder {
         }
         (self.world, self.parts)
     }
-}
-
-fn wall_surface(friction: f32, restitution: Option<f32>) -> tautline::Surface {
-    tautline::Surface { restitution: restitution.unwrap_or(0.0), ..tautline::Surface::with_friction(friction) }
 }
 
 /// The rotation as a unit quaternion.

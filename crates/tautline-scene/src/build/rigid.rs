@@ -12,18 +12,13 @@ const DENSITY: f32 = 1000.0;
 
 /// A body of four particles.
 pub(super) fn rigid_body(rigid: &Rigid, shape: &Arc<Shape>) -> RigidBody {
-    let surface = Surface {
-        restitution: rigid.restitution.unwrap_or(0.0),
-        rolling_friction: rigid.rolling_friction.unwrap_or(0.0),
-        ..Surface::with_friction(rigid.friction)
-    };
     let Damping { linear, angular } = rigid.damping.unwrap_or_default();
     let body = RigidBody::new(shape)
         .position(rigid.position.into())
         .rotation(quaternion(rigid.rotation))
         .velocity(rigid.velocity.into())
         .angular_velocity(rigid.angular_velocity.into())
-        .surface(surface)
+        .surface(surface(rigid.friction, rigid.restitution, rigid.rolling_friction))
         .gravity_scale(rigid.gravity_scale.unwrap_or(1.0))
         .damping(linear, angular)
         .groups(rigid.groups.as_ref().map_or_else(CollisionGroups::default, collision_groups));
@@ -50,6 +45,15 @@ pub(super) fn truss_body(rigid: &Rigid, truss: &Arc<Truss>, origin: Vec3, volume
         .mass(mass)
         .friction(rigid.friction);
     if rigid.motion() == Motion::Fixed { body.fixed() } else { body }
+}
+
+/// What is absent is none.
+pub(super) fn surface(friction: f32, restitution: Option<f32>, rolling_friction: Option<f32>) -> Surface {
+    Surface {
+        restitution: restitution.unwrap_or(0.0),
+        rolling_friction: rolling_friction.unwrap_or(0.0),
+        ..Surface::with_friction(friction)
+    }
 }
 
 fn collision_groups(groups: &Groups) -> CollisionGroups {

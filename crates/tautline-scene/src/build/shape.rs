@@ -94,9 +94,7 @@ fn shape_of(shape: &Shape) -> Result<tautline::Shape, Error> {
         Shape::Capsule { radius, height, segments: None, rings: None } => {
             tautline::Shape::capsule(radius, height / 2.0)
         }
-        Shape::Cylinder { radius, height, segments: None } => {
-            tautline::Shape::cylinder(radius, height / 2.0)
-        }
+        Shape::Cylinder { radius, height, segments: None } => tautline::Shape::cylinder(radius, height / 2.0),
         Shape::Torus { .. } | Shape::Mesh(_) | Shape::File(_) => tautline::Shape::from_mesh(&mesh_of(shape)?),
         Shape::Compound { ref parts } => compound(parts),
         Shape::Surface(ref surface) => tautline::Shape::triangle_mesh(&sheet_of(surface)?),

@@ -163,6 +163,10 @@ pub struct HalfSpace {
     /// `default` without cloth and rope.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub restitution: Option<f32>,
+    /// How far, in m, the normal force acts in front of the point of contact of what rolls on it; as that of a rigid
+    /// body. Only for the solver `default` without cloth and rope.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rolling_friction: Option<f32>,
     /// Colour; a grey if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,
@@ -177,6 +181,7 @@ impl Default for HalfSpace {
             offset: 0.0,
             friction: 0.5,
             restitution: None,
+            rolling_friction: None,
             color: None,
         }
     }
@@ -199,6 +204,10 @@ pub struct Room {
     /// `default` without cloth and rope.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub restitution: Option<f32>,
+    /// How far, in m, the normal force acts in front of the point of contact of what rolls on it; as that of a rigid
+    /// body. Only for the solver `default` without cloth and rope.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rolling_friction: Option<f32>,
     /// Colour; a grey if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,
@@ -213,6 +222,7 @@ impl Default for Room {
             max: [2.0, 4.0, 2.0],
             friction: 0.5,
             restitution: None,
+            rolling_friction: None,
             color: None,
         }
     }

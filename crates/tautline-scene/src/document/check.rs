@@ -40,8 +40,7 @@ pub(super) const TOLERANCE: Rule =
 pub(super) const RATE: Rule =
     Rule { holds: |x| (0.0..=1e6).contains(&x), expected: "a number from 0 to 1000000" };
 /// A part of a whole.
-pub(super) const SHARE: Rule =
-    Rule { holds: |x| (0.0..=1.0).contains(&x), expected: "a number from 0 to 1" };
+pub(super) const SHARE: Rule = Rule { holds: |x| (0.0..=1.0).contains(&x), expected: "a number from 0 to 1" };
 /// How many times something acts.
 pub(super) const FACTOR: Rule =
     Rule { holds: |x| x.abs() <= 1e6, expected: "a finite number between -1000000 and 1000000" };
@@ -108,13 +107,7 @@ impl Checker {
     }
 
     /// A whole number that may be absent.
-    pub(super) fn optional_count(
-        &mut self,
-        field: impl Display,
-        value: Option<u32>,
-        least: u32,
-        most: u32,
-    ) {
+    pub(super) fn optional_count(&mut self, field: impl Display, value: Option<u32>, least: u32, most: u32) {
         if let Some(value) = value {
             self.count(field, value, least, most);
         }

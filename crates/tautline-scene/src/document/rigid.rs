@@ -38,8 +38,8 @@ pub struct Rigid {
     /// Speed apart over speed together of a collision, 0 to 1; of two bodies the larger counts. Not for a truss.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub restitution: Option<f32>,
-    /// How far, in m, the normal force acts in front of the point of contact when it rolls, 0 being none. Not for a
-    /// truss.
+    /// How far, in m, the normal force acts in front of the point of contact when it rolls, 0 being none; of two
+    /// bodies the geometric mean counts, so that both need one. Not for a truss.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rolling_friction: Option<f32>,
     /// How many times the scene's gravity acts on it. Not for a truss.

@@ -25,7 +25,8 @@ const ARCH_DEPTH: f32 = 1.2;
 fn arch(p: &Parameters) -> Scene {
     let n = p.count("n");
     let mut bodies = vec![ground()];
-    bodies.extend((0..n).map(|i| Body::Rigid(wedge(PI * i as f32 / n as f32, PI * (i + 1) as f32 / n as f32))));
+    bodies
+        .extend((0..n).map(|i| Body::Rigid(wedge(PI * i as f32 / n as f32, PI * (i + 1) as f32 / n as f32))));
     let camera = camera(Vec3::new(3.0, 2.6, 9.5), Vec3::Y * 1.5);
     Scene { seconds: 10.0, record_every: 2, bodies, camera: Some(camera), ..Scene::default() }
 }
@@ -129,8 +130,10 @@ fn dominoes(p: &Parameters) -> Scene {
         angle += DOMINO_PITCH / along.length();
     }
     let reach = start + widening * angle;
-    let camera = camera(Vec3::new(0.4, 1.3, 1.9) * reach, Vec3::ZERO);
-    Scene { seconds: 10.0, record_every: 2, bodies, camera: Some(camera), ..Scene::default() }
+    let camera = camera(Vec3::new(0.4, 1.6, 2.3) * reach, Vec3::ZERO);
+    // The wave passes some nine a second.
+    let seconds = 3.0 + p.count("n") as f32 / 8.0;
+    Scene { seconds, record_every: 2, bodies, camera: Some(camera), ..Scene::default() }
 }
 
 /// Its thickness is along `along`, a unit vector in the ground.

@@ -58,14 +58,17 @@ fn bullets(p: &Parameters) -> Scene {
         }));
     }
     let bounds = Bounds { min: [-1e4, 0.0, -1e4], max: [0.0, 1e3, 1e4] };
-    let camera = camera(Vec3::new(-6.0, 3.0, 6.0), Vec3::new(-1.0, 1.2, 0.0));
+    let camera = camera(Vec3::new(-8.0, 3.5, 7.5), Vec3::new(-0.5, 1.3, 0.0));
     Scene { seconds: 3.0, bodies, bounds: Some(bounds), camera: Some(camera), ..Scene::default() }
 }
 
 pub(super) const MIXED_PILE: NamedScene = NamedScene {
     name: "mixed-pile",
     description: "Balls, capsules, boxes, cylinders, hulls and crosses are poured into a bowl.",
-    parameters: &[Parameter::count("n", "how many bodies; the bowl grows with them", 240, (1, 4000)), Parameter::SEED],
+    parameters: &[
+        Parameter::count("n", "how many bodies; the bowl grows with them", 240, (1, 4000)),
+        Parameter::SEED,
+    ],
     document: mixed_pile,
 };
 
@@ -87,11 +90,11 @@ fn mixed_pile(p: &Parameters) -> Scene {
             ..Rigid::default()
         }));
     }
-    let camera = camera(Vec3::new(0.6, 1.5, 2.0) * reach, Vec3::Y * (0.2 * reach));
+    let camera = camera(Vec3::new(0.8, 2.1, 2.8) * reach, Vec3::Y * (0.3 * reach));
     Scene { seconds: 8.0, record_every: 2, bodies, camera: Some(camera), ..Scene::default() }
 }
 
-/// A paraboloid of heights, open at the top; `reach` in m.
+/// A paraboloid of heights up to a level rim; `reach` in m.
 fn bowl(reach: f32) -> Rigid {
     const COUNT: u32 = 41;
     let cell_size = 2.0 * reach / (COUNT - 1) as f32;
@@ -99,7 +102,10 @@ fn bowl(reach: f32) -> Rigid {
         let along = (i as f32 - (COUNT - 1) as f32 / 2.0) * cell_size;
         along * along
     };
-    let height = |i: u32| 0.6 / reach * (squared(i % COUNT) + squared(i / COUNT)) + 0.02;
+    let height = |i: u32| {
+        let share = (squared(i % COUNT) + squared(i / COUNT)) / (reach * reach);
+        0.6 * reach * share.min(1.0) + 0.02
+    };
     Rigid {
         shape: Shape::HeightField {
             columns: COUNT,
@@ -108,6 +114,7 @@ fn bowl(reach: f32) -> Rigid {
             heights: (0..COUNT * COUNT).map(height).collect(),
         },
         fixed: true,
+        color: Some(Color([198, 180, 156])),
         ..Rigid::default()
     }
 }

@@ -17,7 +17,7 @@ fn tower(p: &Parameters) -> Scene {
     let n = p.count("n");
     let mut bodies = vec![Body::HalfSpace(HalfSpace::default())];
     bodies.extend((0..n).map(|i| cube(0.0, i as f32 + 0.5, 1.0)));
-    let camera = camera(Vec3::new(0.9, 0.55, 1.6) * (n as f32 + 3.0), Vec3::Y * (0.5 * n as f32));
+    let camera = camera(Vec3::new(0.7, 0.6, 1.2) * (n as f32 + 3.0), Vec3::Y * (0.5 * n as f32));
     Scene { seconds: 5.0, record_every: 2, bodies, camera: Some(camera), ..Scene::default() }
 }
 

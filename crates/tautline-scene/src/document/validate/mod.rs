@@ -11,15 +11,16 @@ use super::check::{
     THICKNESS, TOLERANCE,
 };
 use super::{
-    AxisAngle, Body, Bounds, Camera, Cloth, HalfSpace, Pin, Room, Rope, Rotation, Scene, Settings, SheetPlace,
-    Sleep, Surface, Thread, VERSION, limits,
+    AxisAngle, Body, Bounds, Camera, Cloth, HalfSpace, Pin, Room, Rope, Rotation, Scene, Settings,
+    SheetPlace, Sleep, Surface, Thread, VERSION, limits,
 };
 use crate::error::{Error, Problem};
 use rigid::check_rigid;
 use shape::check_surface;
 
 /// What is said of a field that a truss does not know.
-const NOT_OF_TRUSSES: &str = "only the solver \"default\" knows it, and only in scenes without cloth and rope";
+const NOT_OF_TRUSSES: &str =
+    "only the solver \"default\" knows it, and only in scenes without cloth and rope";
 
 impl Scene {
     /// Refuses a document whose values a world could not be made of.
@@ -122,23 +123,28 @@ fn check_body(c: &mut Checker, body: &Body, has_trusses: bool) {
         Body::Rigid(rigid) => check_rigid(c, rigid, has_trusses),
         Body::Cloth(cloth) => check_cloth(c, cloth),
         Body::Rope(rope) => check_rope(c, rope),
-        Body::HalfSpace(HalfSpace { normal, offset, friction, restitution, .. }) => {
+        Body::HalfSpace(HalfSpace { normal, offset, friction, restitution, rolling_friction, .. }) => {
             c.direction("normal", normal);
             c.number("offset", *offset, COORDINATE);
             c.number("friction", *friction, NOT_NEGATIVE);
-            check_restitution(c, *restitution, has_trusses);
+            check_surface_of_rigid(c, *restitution, *rolling_friction, has_trusses);
         }
-        Body::Room(Room { min, max, friction, restitution, .. }) => {
+        Body::Room(Room { min, max, friction, restitution, rolling_friction, .. }) => {
             check_box(c, min, max);
             c.number("friction", *friction, NOT_NEGATIVE);
-            check_restitution(c, *restitution, has_trusses);
+            check_surface_of_rigid(c, *restitution, *rolling_friction, has_trusses);
         }
     }
 }
 
-fn check_restitution(c: &mut Checker, restitution: Option<f32>, has_trusses: bool) {
+/// What rigid bodies and walls have, but trusses have not.
+fn check_surface_of_rigid(c: &mut Checker, restitution: Option<f32>, rolling: Option<f32>, is_truss: bool) {
     c.optional("restitution", restitution, SHARE);
-    c.require(!has_trusses || restitution.is_none(), "restitution", || NOT_OF_TRUSSES.to_owned());
+    c.optional("rolling_friction", rolling, THICKNESS);
+    for (field, is_given) in [("restitution", restitution.is_some()), ("rolling_friction", rolling.is_some())]
+    {
+        c.require(!(is_truss && is_given), field, || NOT_OF_TRUSSES.to_owned());
+    }
 }
 
 fn check_cloth(c: &mut Checker, cloth: &Cloth) {

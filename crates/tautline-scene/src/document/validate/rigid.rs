@@ -1,8 +1,8 @@
 //! Judges rigid bodies.
 
 use super::shape::check_shape;
-use super::{NOT_OF_TRUSSES, check_restitution, check_rotation};
-use crate::document::check::{COORDINATE, Checker, FACTOR, MASS, NOT_NEGATIVE, RATE, THICKNESS};
+use super::{NOT_OF_TRUSSES, check_rotation, check_surface_of_rigid};
+use crate::document::check::{COORDINATE, Checker, FACTOR, MASS, NOT_NEGATIVE, RATE};
 use crate::document::{Groups, Motion, Rigid};
 
 /// Groups are bits of a 32-bit number.
@@ -20,8 +20,7 @@ pub(super) fn check_rigid(c: &mut Checker, rigid: &Rigid, is_truss: bool) {
         "there is a mass already: give one of the two".to_owned()
     });
     c.number("friction", rigid.friction, NOT_NEGATIVE);
-    check_restitution(c, rigid.restitution, is_truss);
-    c.optional("rolling_friction", rigid.rolling_friction, THICKNESS);
+    check_surface_of_rigid(c, rigid.restitution, rigid.rolling_friction, is_truss);
     c.optional("gravity_scale", rigid.gravity_scale, FACTOR);
     if let Some(damping) = rigid.damping {
         c.number("damping.linear", damping.linear, RATE);
@@ -53,7 +52,6 @@ fn check_motion(c: &mut Checker, rigid: &Rigid) {
 
 fn refuse_what_no_truss_has(c: &mut Checker, rigid: &Rigid) {
     let fields = [
-        ("rolling_friction", rigid.rolling_friction.is_some()),
         ("gravity_scale", rigid.gravity_scale.is_some()),
         ("damping", rigid.damping.is_some()),
         ("groups", rigid.groups.is_some()),
