@@ -501,8 +501,7 @@ impl Kernel for Write<'_> {
     fn run<L: Lanes>(self) -> Self::Output {
         let mut particles = [[Row::ZERO; 12]; 2];
         let [positions, displacements] = &mut particles;
-        let motion = self.block.motion::<L>(&load(self.rows));
-        self.block.write(motion, positions, displacements);
+        self.block.write::<L>(&load(self.rows), positions, displacements);
         particles
     }
 }
