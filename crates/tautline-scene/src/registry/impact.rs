@@ -77,7 +77,7 @@ fn mixed_pile(p: &Parameters) -> Scene {
     let n = p.count("n");
     let layer = 6.0 + libm::ceilf(libm::sqrtf(n as f32 / 8.0));
     let reach = 0.55 * layer + 2.0;
-    let mut bodies = vec![Body::HalfSpace(HalfSpace::default()), Body::Rigid(bowl(reach))];
+    let mut bodies = vec![Body::Rigid(bowl(reach))];
     let across = layer as u32 - 5;
     for i in 0..n {
         let cell = Vec3::new((i % across) as f32, (i / across.pow(2)) as f32, (i / across % across) as f32);
@@ -91,7 +91,10 @@ fn mixed_pile(p: &Parameters) -> Scene {
         }));
     }
     let camera = camera(Vec3::new(0.8, 2.1, 2.8) * reach, Vec3::Y * (0.3 * reach));
-    Scene { seconds: 8.0, record_every: 2, bodies, camera: Some(camera), ..Scene::default() }
+    // What falls through the bowl or over its rim is below it.
+    let bounds = Bounds { min: [-1e4, 0.0, -1e4], max: [1e4; 3] };
+    let (bounds, camera) = (Some(bounds), Some(camera));
+    Scene { seconds: 8.0, record_every: 2, bodies, bounds, camera, ..Scene::default() }
 }
 
 /// A paraboloid of heights up to a level rim; `reach` in m.
@@ -104,7 +107,7 @@ fn bowl(reach: f32) -> Rigid {
     };
     let height = |i: u32| {
         let share = (squared(i % COUNT) + squared(i / COUNT)) / (reach * reach);
-        0.6 * reach * share.min(1.0) + 0.02
+        0.6 * reach * share.min(1.0)
     };
     Rigid {
         shape: Shape::HeightField {
