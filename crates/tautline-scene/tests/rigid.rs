@@ -183,7 +183,7 @@ fn every_field_changes_the_motion_as_it_says() {
     let driven = after(&ball("position: [0, 2, 0], motion: 'kinematic', velocity: [0, -1, 0]"), 3.0);
     assert!((center(&driven, 1).y + 1.0).abs() < 1e-3);
     let rolled = |rolling: &str| {
-        let ball = format!("shape: {{sphere: {{radius: 0.5}}}}, position: [0, 0.5, 0], velocity: [2, 0, 0]");
+        let ball = "shape: {sphere: {radius: 0.5}}, position: [0, 0.5, 0], velocity: [2, 0, 0]";
         let bodies = format!("{{half_space: {{{rolling}}}}}, {{rigid: {{{ball}, {rolling}}}}}");
         center(&after(&bodies, 4.0), 1).x
     };
