@@ -129,7 +129,7 @@ impl Lineup {
 
     /// The place that stands for half-spaces.
     pub(super) fn ground(&self) -> u32 {
-        self.places.len() as u32 - 1
+        (self.places.len() as u32).saturating_sub(1)
     }
 
     /// A body is removed: its place is empty, and those behind it have moved down.
