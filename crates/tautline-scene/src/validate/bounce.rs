@@ -52,6 +52,7 @@ fn elastic() -> Case {
     };
     Case {
         id: 3,
+        group: "Impact",
         name: "bounces with restitution 1",
         formula: "apex = h₀",
         note: "",
@@ -71,6 +72,7 @@ fn inelastic() -> Case {
     let all = DROPS.into_iter().flat_map(|drop| [0.5, 0.8, 0.3].map(|e| (drop, e)));
     Case {
         id: 4,
+        group: "Impact",
         name: "bounce with restitution e",
         formula: "apex = e²h₀",
         note: "",

@@ -40,6 +40,7 @@ pub(super) fn cases() -> Vec<Case> {
     let variants = bullets().into_iter().flat_map(|bullet| walls.map(|wall| (bullet, wall)));
     vec![Case {
         id: 22,
+        group: "Tunnelling",
         name: "bullets at a wall of 1 cm",
         formula: "0 of 40 get through",
         note: "Started from 40 places that divide the way of one step evenly; bullets of 0.1 kg.",

@@ -7,6 +7,8 @@ use tautline::{Error, Settings, World};
 pub struct Case {
     /// Its number.
     pub id: u32,
+    /// Cases of one kind.
+    pub group: &'static str,
     /// What happens in it.
     pub name: &'static str,
     /// The answer, or what has to hold.
@@ -152,6 +154,8 @@ impl Part {
 pub struct Outcome {
     /// The case's number.
     pub id: u32,
+    /// Cases of one kind.
+    pub group: &'static str,
     /// The case's name.
     pub name: &'static str,
     /// The answer, or what has to hold.
@@ -204,6 +208,7 @@ impl Outcome {
         let pass = worst.pass && parts.iter().all(|part| part.pass);
         Self {
             id: case.id,
+            group: case.group,
             name: case.name,
             formula: case.formula,
             worst: figures,
@@ -239,7 +244,7 @@ mod tests {
 
     #[test]
     fn the_worst_part_is_the_one_furthest_beyond_its_demand() {
-        let case = Case { id: 7, name: "", formula: "", note: "", trials: vec![] };
+        let case = Case { id: 7, group: "", name: "", formula: "", note: "", trials: vec![] };
         let parts = vec![
             Part::absolute("near", [1.0, 1.5], 1.0, "m"),
             Part::relative("beyond", [1.02, 1.0], 0.01, ""),

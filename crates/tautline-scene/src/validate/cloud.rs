@@ -14,6 +14,7 @@ pub(super) fn cases() -> Vec<Case> {
     };
     vec![Case {
         id: 24,
+        group: "Conservation",
         name: "closed cloud without gravity, 5 s",
         formula: "Σp and ΣL stay, energy never grows",
         note: "64 balls, boxes and capsules thrown at each other. Σp is relative to Σm|v|, ΣL to Σm|x||v|, both at the start.",

@@ -41,6 +41,7 @@ fn head_on() -> Case {
     hits.push(Hit { shape: || cube(1.0), name: "cubes, face to face", ..balls([1.0, 3.0], 1.0, 2.0) });
     Case {
         id: 5,
+        group: "Impact",
         name: "central collision of two bodies",
         formula: "v₁' = v(m₁ − e m₂)/(m₁ + m₂), v₂' = v(1 + e)m₁/(m₁ + m₂)",
         note: "",
@@ -97,6 +98,7 @@ fn cradle() -> Case {
     let variants = [(1e-3, 1.0), (1e-3, 3.0), (1e-3, 0.3), (5e-3, 1.0)];
     Case {
         id: 6,
+        group: "Impact",
         name: "cradle of five balls",
         formula: "the last ball takes the speed of the first",
         note: "Balls of 20 cm without gravity, with gaps between them.",

@@ -26,6 +26,7 @@ fn free_fall() -> Case {
     let (up, spin) = (Vec3::Y * 7.0, Vec3::new(2.0, 5.0, -1.0));
     Case {
         id: 1,
+        group: "Flight",
         name: "free fall for 2 s",
         formula: "y₀ + v₀t − ½gt²",
         note: "Off is the distance of the centre from where it should be. 1 km from the origin f32 is as coarse as 0.06 mm.",
@@ -49,6 +50,7 @@ fn projectile() -> Case {
     let plank = || cuboid(Vec3::new(0.5, 0.05, 0.2));
     Case {
         id: 2,
+        group: "Flight",
         name: "projectile, x after 2 s",
         formula: "v t",
         note: "",

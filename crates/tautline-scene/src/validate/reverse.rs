@@ -26,6 +26,7 @@ pub(super) fn cases() -> Vec<Case> {
     ];
     vec![Case {
         id: 25,
+        group: "Conservation",
         name: "motion reversed in time",
         formula: "returns to its start",
         note: "The furthest corner of the body from where it was, after so many steps and as many back.",

@@ -62,6 +62,7 @@ fn rolling() -> Case {
     let variants = [(ball, 20.0), (small, 20.0), (faceted, 20.0), (capsule, 20.0), (ball, 5.0), (ball, 40.0)];
     Case {
         id: 11,
+        group: "Rolling and toppling",
         name: "a round body rolls down",
         formula: "a = g sin θ/(1 + I/mr²)",
         note: "I is that of the body as it is, of a faceted one too.",
@@ -94,6 +95,7 @@ fn toppling() -> Case {
     };
     Case {
         id: 12,
+        group: "Rolling and toppling",
         name: "a tall box on a slope topples",
         formula: "tan θ = w/h",
         note: "",

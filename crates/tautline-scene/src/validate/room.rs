@@ -21,6 +21,7 @@ pub(super) fn cases() -> Vec<Case> {
     let trial = |seed: u64| Trial::new(move |conditions| pile(conditions, seed));
     vec![Case {
         id: 23,
+        group: "Piles",
         name: "1000 icosahedra in a room, 15 s",
         formula: "penetration 0, speed 0, none outside",
         note: "Icosahedra of 1 m, dropped into 8 × 8 m between half-spaces; judged after 15 s by the separating axis theorem.",

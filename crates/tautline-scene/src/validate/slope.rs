@@ -121,6 +121,7 @@ fn sticking() -> Case {
     let tiles = FRICTIONS.map(|friction| (Brick { friction, ..TILE }, HEADINGS[1], "tile askew"));
     Case {
         id: 7,
+        group: "Friction",
         name: "a box on a slope begins to slide",
         formula: "tan θ = μ + 2s/(g t² cos θ)",
         note: "To slide is to move more than s = 2 cm in t = 5 s, for which a body needs to be a little steeper than μ.",
@@ -144,6 +145,7 @@ fn creep() -> Case {
     let tiles = FRICTIONS.map(|friction| (Brick { friction, ..TILE }, HEADINGS[1], "tile askew"));
     Case {
         id: 8,
+        group: "Friction",
         name: "creep at tan θ = 0.95 μ in 30 s",
         formula: "0",
         note: "From the very start, while the contact takes up its load, to the end.",
@@ -168,6 +170,7 @@ fn sliding() -> Case {
     let tile = |friction: f32| Brick { friction, ..TILE };
     Case {
         id: 9,
+        group: "Friction",
         name: "a box slides down for 2 s",
         formula: "½ g (sin θ − μ cos θ) t²",
         note: "",
@@ -199,6 +202,7 @@ fn stopping() -> Case {
     variants.push((Brick { friction: 0.3, ..TILE }, 4.0, 0.7, "tile askew"));
     Case {
         id: 10,
+        group: "Friction",
         name: "stopping distance on a level floor",
         formula: "v²/2μg",
         note: "",

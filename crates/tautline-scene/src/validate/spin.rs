@@ -75,6 +75,7 @@ fn tumbling() -> Case {
     };
     Case {
         id: 18,
+        group: "Free rotation",
         name: "torque-free tumbling for 60 s",
         formula: "E and L (as a vector) stay",
         note: "The greatest change at any step.",
@@ -122,6 +123,7 @@ fn flipping() -> Case {
     };
     Case {
         id: 19,
+        group: "Free rotation",
         name: "Dzhanibekov: time between flips",
         formula: "Euler's equations, by Runge and Kutta in f64",
         note: "Half a period of the component of ω along the middle axis.",

@@ -83,6 +83,7 @@ fn tower_of_ten() -> Case {
     let demands = [0.1, 0.25];
     Case {
         id: 13,
+        group: "Stacks",
         name: "tower of 10 cubes for 30 s",
         formula: "drift 0, penetration 0",
         note: "The greatest at any time, looked at ten times a second from the start.",
@@ -97,6 +98,7 @@ fn tower_of_ten() -> Case {
 fn high_towers() -> Case {
     Case {
         id: 14,
+        group: "Stacks",
         name: "towers of 20 and 40 cubes for 30 s",
         formula: "drift 0, penetration 0",
         note: "As the tower of 10.",
@@ -130,6 +132,7 @@ fn heavy_on_light() -> Case {
     });
     Case {
         id: 15,
+        group: "Stacks",
         name: "a heavy cube on a light one for 10 s",
         formula: "penetration 0",
         note: "At 1 : 1000 it has to stand: 1 cm.",
