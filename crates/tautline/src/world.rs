@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
-use crate::body::{Body, BodyDescription, BuiltDeformable, HalfSpace, Motion, RigidBody, Substance, Surface, TrussBody};
+use crate::body::{
+    Body, BodyDescription, BuiltDeformable, HalfSpace, Motion, RigidBody, Substance, Surface, TrussBody,
+};
 use crate::collision::{Candidate, Contact, NarrowPhase, PairCache};
 use crate::error::{Error, coordinates, positive, within};
 use crate::particles::Particles;
@@ -168,7 +170,12 @@ impl World {
             self.particles.inverse_mass[particle] = 0.0;
             self.particles.displacement[particle] = Vec3::ZERO;
         }
-        Ok(self.push(Body::new(range, Substance::Deformable(Box::new(built.body)), Surface::with_friction(built.friction), false)))
+        Ok(self.push(Body::new(
+            range,
+            Substance::Deformable(Box::new(built.body)),
+            Surface::with_friction(built.friction),
+            false,
+        )))
     }
 
     fn push(&mut self, body: Body) -> BodyHandle {

@@ -25,9 +25,9 @@ pub use rope::Rope;
 pub use surface::{Combine, Surface};
 pub use truss::{Truss, TrussBody};
 
+pub(crate) use deformable::{BuiltDeformable, Deformable};
 pub(crate) use rigid::{CORNERS, Frame, Rigid, rigid_motion};
 pub(crate) use surface::Touch;
-pub(crate) use deformable::{BuiltDeformable, Deformable};
 
 /// What a body is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

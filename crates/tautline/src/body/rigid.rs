@@ -251,7 +251,13 @@ impl RigidBody {
                 within("density", density, 1e-20, 1e20, "a density from 1e-20 to 1e20 (kg/m³)")?;
                 let mass = density * self.shape.volume();
                 if dynamic {
-                    within("density", mass, 1e-20, 1e20, "a density that gives a mass from 1e-20 to 1e20 kg")?;
+                    within(
+                        "density",
+                        mass,
+                        1e-20,
+                        1e20,
+                        "a density that gives a mass from 1e-20 to 1e20 kg",
+                    )?;
                 }
                 mass
             }

@@ -42,6 +42,14 @@ pub(super) struct Batch {
     pub(super) points: u32,
 }
 
+impl Batch {
+    /// Its points among all.
+    #[inline(always)]
+    pub(super) fn range(&self) -> std::ops::Range<usize> {
+        self.first as usize..(self.first + self.points) as usize
+    }
+}
+
 /// What the points of a batch share.
 #[derive(Debug, Clone, Default)]
 pub(super) struct HeaderRows {
@@ -49,6 +57,9 @@ pub(super) struct HeaderRows {
     pub(super) normal: Rows3,
     pub(super) tangents: [Rows3; 2],
     pub(super) friction: Row,
+    pub(super) restitution: Row,
+    /// In m.
+    pub(super) rolling_friction: Row,
 }
 
 /// One point of each of eight pairs. A Jacobian is √I⁻¹ (l × Rᵀd): see `block`.

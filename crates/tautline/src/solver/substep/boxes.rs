@@ -3,7 +3,7 @@
 use glam::{Mat3, Vec3};
 
 use super::RigidSolver;
-use super::lineup::{NOBODY, Role};
+use super::lineup::NOBODY;
 use super::pairs::Key;
 use crate::body::{Body, CollisionGroups, HalfSpace, Motion, Rigid, Substance};
 use crate::collision::Aabb;
@@ -56,14 +56,16 @@ impl RigidSolver {
     /// The box of a body that lets it move as it does for a while.
     fn enclose(&self, body: u32, place: usize, rigid: &Rigid) -> Boxed {
         let (block, lane) = (&self.crew.blocks[place / LANES], place % LANES);
-        let column = |rows: &super::block::Rows3| Vec3::new(rows[0].0[lane], rows[1].0[lane], rows[2].0[lane]);
+        let column =
+            |rows: &super::block::Rows3| Vec3::new(rows[0].0[lane], rows[1].0[lane], rows[2].0[lane]);
         let (center, axes) = (column(&block.center), block.axes.each_ref().map(column));
         let axes = Mat3::from_cols(axes[0], axes[1], axes[2]);
         let need = self.crew.tracks[place / LANES].need.0[lane];
         let room = need * (1.0 + STEPS_AHEAD) + SKIN * rigid.shape.reach();
         let parts = rigid.shape.parts().iter().map(|part| world_box(center, axes, part.low, part.high));
         let nothing = Aabb { low: Vec3::INFINITY, high: Vec3::NEG_INFINITY };
-        let bounds = parts.fold(nothing, |sum, part| Aabb { low: sum.low.min(part.low), high: sum.high.max(part.high) });
+        let bounds = parts
+            .fold(nothing, |sum, part| Aabb { low: sum.low.min(part.low), high: sum.high.max(part.high) });
         Boxed { body, room, center, axes, bounds: grown(bounds, room) }
     }
 
@@ -121,7 +123,9 @@ fn pair_with_half_spaces(bodies: &[Body], boxed: &[Boxed], keys: &mut Vec<Key>) 
         .collect();
     for entry in boxed {
         let Substance::Rigid(rigid) = &bodies[entry.body as usize].substance else { continue };
-        if rigid.traits.motion != Motion::Dynamic || !rigid.traits.groups.collide_with(CollisionGroups::default()) {
+        if rigid.traits.motion != Motion::Dynamic
+            || !rigid.traits.groups.collide_with(CollisionGroups::default())
+        {
             continue;
         }
         for &(wall_body, wall) in &walls {

@@ -9,9 +9,7 @@ use glam::{Mat3, Vec3};
 use super::held::{Held, HeldPoint};
 use super::pairs::{Detail, Pair};
 use crate::body::{Body, Substance};
-use crate::geometry::manifold::{
-    Manifold, Placement, Scratch, collide, collide_plane, separation_along,
-};
+use crate::geometry::manifold::{Manifold, Placement, Scratch, collide, collide_plane, separation_along};
 use crate::shape::Convex;
 use crate::simd::{Kernel, Lanes, Row};
 
@@ -54,7 +52,8 @@ impl Scene<'_> {
     fn placed(&self, body: u32) -> Placed {
         let place = self.place_of[body as usize] as usize;
         let (first, second) = (&self.poses[2 * place].0, &self.poses[2 * place + 1].0);
-        let (e0, e1) = (Vec3::new(second[0], second[1], second[2]), Vec3::new(second[3], second[4], second[5]));
+        let (e0, e1) =
+            (Vec3::new(second[0], second[1], second[2]), Vec3::new(second[3], second[4], second[5]));
         let velocity = &self.velocities[place].0;
         Placed {
             center: Vec3::new(first[0], first[1], first[2]),
@@ -113,11 +112,21 @@ fn update<L: Lanes>(scene: Scene<'_>, pair: &mut Pair, detail: &mut Detail, scra
             for point in &mut manifold.points {
                 point.on_b = a.center + a.axes * point.on_b;
             }
-            (manifold, Placed { center: Vec3::ZERO, axes: Mat3::IDENTITY, motion: Vec3::ZERO, turning: 0.0, reach: 0.0 })
+            (
+                manifold,
+                Placed {
+                    center: Vec3::ZERO,
+                    axes: Mat3::IDENTITY,
+                    motion: Vec3::ZERO,
+                    turning: 0.0,
+                    reach: 0.0,
+                },
+            )
         }
         _ => {
             let b = scene.placed(pair.b);
-            let parts = part(scene.bodies, pair.a, detail.part_a).zip(part(scene.bodies, pair.b, detail.part_b));
+            let parts =
+                part(scene.bodies, pair.a, detail.part_a).zip(part(scene.bodies, pair.b, detail.part_b));
             let Some(parts) = parts else { return };
             (collide_parts::<L>(scene, parts, (&a, &b), detail, scratch), b)
         }
@@ -176,7 +185,8 @@ fn hold(manifold: &Manifold, (a, b): (&Placed, &Placed), detail: &mut Detail) {
         let Some(before) = predecessor(old, name(found.key), found.on_a, a.reach) else { continue };
         let distance = (b.center + b.axes * before.on_b()) - (a.center + a.axes * before.on_a());
         let sticks = before.normal_impulse() > 0.0 && distance.dot(old_normal) < LETS_GO;
-        let slip = if sticks { (distance + before.slip()).reject_from_normalized(normal) } else { Vec3::ZERO };
+        let slip =
+            if sticks { (distance + before.slip()).reject_from_normalized(normal) } else { Vec3::ZERO };
         point.continue_from(before.normal_impulse(), before.tangent_impulse(), slip);
     }
     **old = held;

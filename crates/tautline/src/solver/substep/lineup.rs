@@ -165,7 +165,8 @@ impl Lineup {
     /// The places whose velocities a region may read and change.
     pub(super) fn range(&self, region: Region) -> Range<usize> {
         let span = |first: u32, last: u32| {
-            self.stripes[first as usize].places.start as usize..self.stripes[last as usize].places.end as usize
+            self.stripes[first as usize].places.start as usize
+                ..self.stripes[last as usize].places.end as usize
         };
         match region {
             Region::Stripe(i) => span(i, i),
@@ -262,7 +263,8 @@ mod tests {
             assert_eq!(lineup.places[stripe.places.end as usize - 1], NOBODY);
         }
         assert_eq!(lineup.places[lineup.ground() as usize], NOBODY);
-        let written = (0..lineup.places.len() as u32).filter(|&p| (p as usize) < lineup.solved && lineup.is_written(p));
+        let written =
+            (0..lineup.places.len() as u32).filter(|&p| (p as usize) < lineup.solved && lineup.is_written(p));
         assert_eq!(written.count(), 3103);
     }
 

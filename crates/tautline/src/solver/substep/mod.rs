@@ -6,6 +6,7 @@
 
 mod batch;
 mod block;
+mod bounce;
 mod boxes;
 mod contact;
 mod crew;
@@ -16,6 +17,7 @@ mod lineup;
 mod pairs;
 mod prepare;
 mod rigidity;
+mod rolling;
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -162,10 +164,13 @@ impl RigidSolver {
     /// One substep: forces, contacts, motion, contacts without bias.
     pub(crate) fn substep(&mut self, settings: &Settings, h: f32, is_first: bool) {
         let (timing, instructions) = (timing(settings, h), settings.instructions);
+        self.groups.meet(&mut self.crew, h, instructions);
         self.crew.kick(&self.lineup, is_first, instructions);
         self.groups.pass(Pass::Biased, &self.softness, &mut self.crew.velocities, instructions);
         self.crew.advance(&self.lineup, &timing);
         self.groups.pass(Pass::Relaxing, &self.softness, &mut self.crew.velocities, instructions);
+        self.groups.part(&mut self.crew.velocities, instructions);
+        self.groups.resist_rolling(&mut self.crew.velocities, instructions);
     }
 
     /// Writes the particles, and keeps the multipliers for the next step. A body that is not finite any more stays
@@ -209,9 +214,10 @@ impl RigidSolver {
     }
 
     fn keep_multipliers(&mut self) {
-        for group in self.groups.iter().filter(|group| !group.active.is_empty()) {
+        for group in self.groups.iter_mut().filter(|group| !group.active.is_empty()) {
+            group.forget_blows();
             for (batch, header) in group.batches.iter().zip(&group.headers) {
-                let points = &group.points[batch.first as usize..(batch.first + batch.points) as usize];
+                let points = &group.points[batch.range()];
                 for (lane, &pair) in batch.pairs.iter().enumerate() {
                     let detail = self.pairs.details.get_mut(pair as usize);
                     if let Some(held) = detail.and_then(|detail| detail.held.as_deref_mut()) {

@@ -60,7 +60,8 @@ impl Pairs {
     /// Makes the list anew from ascending keys.
     pub(super) fn replace(&mut self, keys: &[Key], touch: impl Fn(&Key) -> Touch) {
         let old = std::mem::take(self);
-        let mut old_keys = (0..old.pairs.len()).map(|index| old.key(index)).collect::<Vec<_>>().into_iter().peekable();
+        let mut old_keys =
+            (0..old.pairs.len()).map(|index| old.key(index)).collect::<Vec<_>>().into_iter().peekable();
         let mut old = old.pairs.into_iter().zip(old.details);
         self.pairs.reserve(keys.len());
         self.details.reserve(keys.len());
@@ -71,7 +72,8 @@ impl Pairs {
             }
             let (pair, detail) = kept.unwrap_or_else(|| {
                 let Key { a, b, part_a, part_b } = *key;
-                let detail = Detail { part_a, part_b, touch: touch(key), memory: Memory::default(), held: None };
+                let detail =
+                    Detail { part_a, part_b, touch: touch(key), memory: Memory::default(), held: None };
                 (Pair { a, b, stamp: NEVER, points: 0 }, detail)
             });
             self.pairs.push(pair);
@@ -81,7 +83,8 @@ impl Pairs {
 
     /// Forgets the pairs of a body that is removed; the bodies behind it move down.
     pub(super) fn remove_body(&mut self, body: u32) {
-        let mut keep = self.pairs.iter().map(|pair| pair.a != body && pair.b != body).collect::<Vec<_>>().into_iter();
+        let mut keep =
+            self.pairs.iter().map(|pair| pair.a != body && pair.b != body).collect::<Vec<_>>().into_iter();
         self.details.retain(|_| keep.next() == Some(true));
         self.pairs.retain(|pair| pair.a != body && pair.b != body);
         for pair in &mut self.pairs {
