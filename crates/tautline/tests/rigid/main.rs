@@ -1,6 +1,7 @@
 //! Rigid bodies of four particles: how they move, touch, bounce and rest.
 
 mod bounce;
+mod friction;
 mod motion;
 mod stacks;
 
