@@ -3,6 +3,7 @@
 mod bounce;
 mod control;
 mod forces;
+mod friction;
 mod measures;
 mod motion;
 mod picking;

@@ -77,10 +77,10 @@ pub(super) struct PointRows {
     /// Multipliers, in kg m: the impulse times the substep.
     pub(super) normal_impulse: Row,
     pub(super) tangent_impulses: [Row; 2],
-    /// How far the anchors have drifted apart along the tangents when the step began, in m.
+    /// How far the anchors have drifted apart along the tangents, in m.
     pub(super) drift: [Row; 2],
-    /// A mask: friction was at its limit.
-    pub(super) slides: Row,
+    /// How far they have been moved in this step to follow what slides, in m.
+    pub(super) slid: [Row; 2],
 }
 
 /// Makes batches of the pairs; `first_batch` tells of each pair's batch and lane.

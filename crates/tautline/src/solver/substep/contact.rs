@@ -148,43 +148,9 @@ fn solve<L: Lanes>(
     let normal = Vec3x8::<L>::load(&header.normal);
     let (normal_a, normal_b) = (Vec3x8::load(&rows.normal_a), Vec3x8::load(&rows.normal_b));
     let relative = b.linear - a.linear;
+    let opening = normal.dot(relative) + (normal_b.dot(b.angular) - normal_a.dot(a.angular));
     let impulse = L::load(&rows.normal_impulse);
 
-    let tangents = load_both::<L>(&header.tangents);
-    let tangents_a = load_both::<L>(&rows.tangents_a);
-    let tangents_b = load_both::<L>(&rows.tangents_b);
-    let tangent_mass = L::load(&rows.tangent_mass);
-    let old = [L::load(&rows.tangent_impulses[0]), L::load(&rows.tangent_impulses[1])];
-    let rate = L::splat(softness.drift_rate);
-    let mut wanted = old;
-    for axis in 0..2 {
-        let turning = tangents_b[axis].dot(b.angular) - tangents_a[axis].dot(a.angular);
-        let slide = tangents[axis].dot(relative) + turning;
-        let slide = match pass {
-            Pass::Biased => slide + L::load(&rows.drift[axis]) * rate,
-            Pass::Relaxing => slide,
-        };
-        wanted[axis] = old[axis] - slide * tangent_mass;
-    }
-    let limit = L::load(&header.friction) * impulse;
-    let size = (wanted[0] * wanted[0] + wanted[1] * wanted[1]).max(L::splat(TINY)).sqrt();
-    let over = size.greater(limit);
-    let scale = over.select(limit / size, L::splat(1.0));
-    let friction = [wanted[0] * scale, wanted[1] * scale];
-    over.and(L::splat(1.0)).store(&mut rows.slides);
-    friction[0].store(&mut rows.tangent_impulses[0]);
-    friction[1].store(&mut rows.tangent_impulses[1]);
-
-    let changes = [friction[0] - old[0], friction[1] - old[1]];
-    let linear = tangents[0] * changes[0] + tangents[1] * changes[1];
-    a.linear = a.linear - linear * a.inverse_mass;
-    b.linear = b.linear + linear * b.inverse_mass;
-    let turn_a = tangents_a[0] * changes[0] + tangents_a[1] * changes[1];
-    let turn_b = tangents_b[0] * changes[0] + tangents_b[1] * changes[1];
-    a.angular = a.angular - turn_a * a.response;
-    b.angular = b.angular + turn_b * b.response;
-
-    let opening = normal.dot(b.linear - a.linear) + (normal_b.dot(b.angular) - normal_a.dot(a.angular));
     let separation = L::load(&rows.separation);
     let apart = separation.greater(zero);
     let mass = L::load(&rows.normal_mass);
@@ -204,11 +170,52 @@ fn solve<L: Lanes>(
     let new = new.max(zero);
     new.store(&mut rows.normal_impulse);
 
+    let tangents = load_both::<L>(&header.tangents);
+    let tangents_a = load_both::<L>(&rows.tangents_a);
+    let tangents_b = load_both::<L>(&rows.tangents_b);
+    let tangent_mass = L::load(&rows.tangent_mass);
+    let old = [L::load(&rows.tangent_impulses[0]), L::load(&rows.tangent_impulses[1])];
+    let rate = L::splat(softness.drift_rate);
+    let mut drift = [L::load(&rows.drift[0]), L::load(&rows.drift[1])];
+    let mut wanted = old;
+    for axis in 0..2 {
+        let turning = tangents_b[axis].dot(b.angular) - tangents_a[axis].dot(a.angular);
+        let slide = tangents[axis].dot(relative) + turning;
+        let corrected = match pass {
+            Pass::Biased => slide + drift[axis] * rate,
+            Pass::Relaxing => {
+                drift[axis] = drift[axis] + slide;
+                slide
+            }
+        };
+        wanted[axis] = old[axis] - corrected * tangent_mass;
+    }
+    // By the multiplier that this visit found: the one before is a soft pass's, too small while a contact takes up
+    // its load.
+    let limit = L::load(&header.friction) * new;
+    let size = (wanted[0] * wanted[0] + wanted[1] * wanted[1]).max(L::splat(TINY)).sqrt();
+    let over = size.greater(limit);
+    let scale = over.select(limit / size, L::splat(1.0));
+    let friction = [wanted[0] * scale, wanted[1] * scale];
+    friction[0].store(&mut rows.tangent_impulses[0]);
+    friction[1].store(&mut rows.tangent_impulses[1]);
+    if pass == Pass::Relaxing {
+        // The anchors of what slides follow it at once, or it would be pulled back when it stops.
+        for axis in 0..2 {
+            (L::load(&rows.slid[axis]) + over.and(drift[axis])).store(&mut rows.slid[axis]);
+            over.select(zero, drift[axis]).store(&mut rows.drift[axis]);
+        }
+    }
+
     let change = new - impulse;
-    a.linear = a.linear - normal * (change * a.inverse_mass);
-    b.linear = b.linear + normal * (change * b.inverse_mass);
-    a.angular = a.angular - normal_a * (change * a.response);
-    b.angular = b.angular + normal_b * (change * b.response);
+    let changes = [friction[0] - old[0], friction[1] - old[1]];
+    let linear = normal * change + tangents[0] * changes[0] + tangents[1] * changes[1];
+    a.linear = a.linear - linear * a.inverse_mass;
+    b.linear = b.linear + linear * b.inverse_mass;
+    let turn_a = normal_a * change + tangents_a[0] * changes[0] + tangents_a[1] * changes[1];
+    let turn_b = normal_b * change + tangents_b[0] * changes[0] + tangents_b[1] * changes[1];
+    a.angular = a.angular - turn_a * a.response;
+    b.angular = b.angular + turn_b * b.response;
 }
 
 /// Squared multipliers below this are none.

@@ -140,7 +140,7 @@ pub(super) fn fill<'a, L: Lanes>(
             impulses[axis + 1].store(&mut rows.tangent_impulses[axis]);
             directions[axis + 1].dot(drift).store(&mut rows.drift[axis]);
         }
-        rows.slides = Row::ZERO;
+        rows.slid = [Row::ZERO; 2];
     }
     shift(&mut sum_a, impulse, -a.inverse_mass);
     shift(&mut sum_b, impulse, b.inverse_mass);
@@ -186,10 +186,7 @@ pub(super) fn keep(lane: usize, header: &HeaderRows, points: &[PointRows], held:
     for (point, rows) in held.points.iter_mut().zip(points) {
         let impulses = [0, 1].map(|axis| rows.tangent_impulses[axis].0[lane]);
         let tangential = tangent(0, impulses[0]) + tangent(1, impulses[1]);
-        let mut slip = point.slip();
-        if rows.slides.0[lane] > 0.0 {
-            slip -= tangent(0, rows.drift[0].0[lane]) + tangent(1, rows.drift[1].0[lane]);
-        }
+        let slip = point.slip() - tangent(0, rows.slid[0].0[lane]) - tangent(1, rows.slid[1].0[lane]);
         point.continue_from(rows.normal_impulse.0[lane], tangential, slip);
     }
 }
