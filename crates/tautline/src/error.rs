@@ -27,8 +27,8 @@ pub enum Error {
     /// A mesh that cannot be used, with the place of its first defect.
     #[error("mesh: {0}")]
     Mesh(#[from] MeshDefect),
-    /// A handle whose body has been removed.
-    #[error("this handle names no body: it has been removed")]
+    /// A handle whose body or joint has been removed.
+    #[error("this handle names nothing any more: it has been removed")]
     StaleHandle,
     /// Bytes that are not a snapshot this version can read.
     #[error("snapshot: {0}")]

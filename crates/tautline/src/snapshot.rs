@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::body::{Body, Substance, Truss};
 use crate::collision::PairCache;
 use crate::error::Error;
+use crate::joint::Joints;
 use crate::particles::Particles;
 use crate::settings::Settings;
 use crate::slots::Slots;
@@ -27,6 +28,7 @@ struct Stored {
     truss_of_body: Vec<Option<u32>>,
     slots: Slots,
     pairs: PairCache,
+    joints: Joints,
     time: f64,
 }
 
@@ -43,6 +45,7 @@ impl World {
             truss_of_body,
             slots: self.slots.clone(),
             pairs: self.pairs.clone(),
+            joints: self.joints.clone(),
             time: self.time,
         };
         let mut bytes = MAGIC.to_vec();
@@ -114,9 +117,12 @@ impl Stored {
         if next != self.particles.len() || !self.pairs.is_valid(self.bodies.len()) || !self.time.is_finite() {
             return Err(refuse("its particles or pairs disagree with its bodies"));
         }
-        let Self { settings, particles, bodies, slots, pairs, time, .. } = self;
+        if !self.joints.is_valid(self.bodies.len()) {
+            return Err(refuse("its joints disagree with its bodies"));
+        }
+        let Self { settings, particles, bodies, slots, pairs, joints, time, .. } = self;
         let rigid = RigidSolver::default();
-        Ok(World { settings, particles, bodies, slots, pairs, rigid, time, scratch: Scratch::default() })
+        Ok(World { settings, particles, bodies, slots, pairs, joints, rigid, time, scratch: Scratch::default() })
     }
 }
 

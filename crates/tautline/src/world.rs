@@ -7,6 +7,7 @@ use glam::Vec3;
 use crate::body::{Body, BodyDescription, BuiltDeformable, HalfSpace, Motion, RigidBody, Substance, Surface, TrussBody};
 use crate::collision::{Candidate, Contact, NarrowPhase, PairCache};
 use crate::error::{Error, coordinates, positive, within};
+use crate::joint::Joints;
 use crate::particles::Particles;
 use crate::rest::wake_around;
 use crate::settings::Settings;
@@ -40,6 +41,7 @@ pub struct World {
     pub(crate) bodies: Vec<Body>,
     pub(crate) slots: Slots,
     pub(crate) pairs: PairCache,
+    pub(crate) joints: Joints,
     pub(crate) rigid: RigidSolver,
     /// In s.
     pub(crate) time: f64,
@@ -73,6 +75,7 @@ impl World {
             bodies: Vec::new(),
             slots: Slots::default(),
             pairs: PairCache::default(),
+            joints: Joints::default(),
             rigid: RigidSolver::default(),
             time: 0.0,
             scratch: Scratch::default(),
@@ -177,7 +180,7 @@ impl World {
         self.slots.push()
     }
 
-    /// Removes a body and its particles, and wakes what may have rested on it.
+    /// Removes a body with its particles and its joints, and wakes what may have rested on it or hung from it.
     ///
     /// # Errors
     /// [`Error::StaleHandle`].
@@ -190,14 +193,16 @@ impl World {
         self.slots.remove(index);
         self.pairs.remove_body(index as u32);
         self.rigid.remove_body(index);
+        let let_go = self.joints.remove_body(index as u32);
         for body in &mut self.bodies[index..] {
             body.particles = body.particles.start - range.len()..body.particles.end - range.len();
         }
+        let_go.into_iter().for_each(|body| self.wake_body(body as usize));
         Ok(())
     }
 
     /// Wakes a body and, if it slept, the sleepers that may rest on it.
-    fn wake_body(&mut self, index: usize) {
+    pub(crate) fn wake_body(&mut self, index: usize) {
         if self.bodies[index].rest.asleep {
             wake_around(&mut self.bodies, &self.particles.position, index);
         }

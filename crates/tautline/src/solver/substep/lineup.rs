@@ -189,6 +189,11 @@ impl Lineup {
         if place < self.solved as u32 + self.driven_count { copy } else { stripe.places.end - 1 }
     }
 
+    /// Whether this is the place of a kinematic body.
+    pub(super) fn is_driven(&self, place: u32) -> bool {
+        (self.solved as u32..self.solved as u32 + self.driven_count).contains(&place)
+    }
+
     /// The places whose bodies' particles the solver writes: free bodies, and the first copy of kinematic ones.
     pub(super) fn is_written(&self, place: u32) -> bool {
         let body = self.places[place as usize];

@@ -12,6 +12,7 @@ mod crew;
 mod detect;
 mod group;
 mod held;
+mod joint;
 mod lineup;
 mod pairs;
 mod prepare;
@@ -23,6 +24,7 @@ use serde::{Deserialize, Serialize};
 use crate::body::{Body, Frame, Motion, Substance};
 use crate::collision::bvh::PairSearch;
 use crate::geometry::manifold;
+use crate::joint::{Joints, State as JointState};
 use crate::parallel;
 use crate::particles::Particles;
 use crate::settings::Settings;
@@ -32,6 +34,7 @@ use contact::{Pass, Softness};
 use crew::{Crew, Timing};
 use detect::{Detect, Scene};
 use group::Groups;
+use joint::JointSolver;
 use lineup::{Entry, Lineup, NOBODY, Role};
 use pairs::Pairs;
 
@@ -46,6 +49,9 @@ pub(crate) struct RigidSolver {
     /// Whether bodies have come, gone, fallen asleep or changed their kind since the lineup was made.
     is_stale: bool,
     groups: Groups,
+    joints: JointSolver,
+    /// Pairs of bodies that do not collide since a joint connects them, sorted.
+    separated: Vec<[u32; 2]>,
     softness: Softness,
     search: PairSearch,
     scratch: manifold::Scratch,
@@ -85,12 +91,20 @@ impl RigidSolver {
     }
 
     /// Reads the bodies and finds out who may meet whom.
-    pub(crate) fn begin(&mut self, bodies: &[Body], particles: &Particles, settings: &Settings, h: f32) {
+    pub(crate) fn begin(
+        &mut self,
+        (bodies, particles, joints): (&[Body], &Particles, &Joints),
+        settings: &Settings,
+        h: f32,
+    ) {
         let timing = timing(settings, h);
         let is_first = std::mem::take(&mut self.is_stale);
         if is_first {
             self.line_up(bodies, particles);
+            self.joints.assemble(joints, &self.lineup);
+            self.separated = joints.separated();
         }
+        self.joints.begin(joints);
         self.crew.read(&self.lineup, (bodies, particles), &timing, is_first);
         let leaves = self.crew.count_versions(&self.lineup, &mut self.versions);
         if is_first || leaves {
@@ -159,10 +173,11 @@ impl RigidSolver {
         self.groups.prepare(&self.pairs, poses, ground, &mut self.crew.accumulated, settings.instructions);
     }
 
-    /// One substep: forces, contacts, motion, contacts without bias.
+    /// One substep: forces, joints, contacts, motion, contacts without bias.
     pub(crate) fn substep(&mut self, settings: &Settings, h: f32, is_first: bool) {
         let (timing, instructions) = (timing(settings, h), settings.instructions);
         self.crew.kick(&self.lineup, is_first, instructions);
+        self.joints.solve(&mut self.crew, settings, h);
         self.groups.pass(Pass::Biased, &self.softness, &mut self.crew.velocities, instructions);
         self.crew.advance(&self.lineup, &timing);
         self.groups.pass(Pass::Relaxing, &self.softness, &mut self.crew.velocities, instructions);
@@ -206,6 +221,11 @@ impl RigidSolver {
         }
         lost.sort_unstable_by_key(|lost| lost.body);
         lost
+    }
+
+    /// What the step has made of the joints, by their index.
+    pub(crate) fn finish_joints(&self, settings: &Settings, h: f32) -> Vec<(u32, JointState)> {
+        self.joints.finish(settings, h)
     }
 
     fn keep_multipliers(&mut self) {
