@@ -100,7 +100,8 @@ impl Work {
         [base, place(&self.joint.on_body, &movers[self.body as usize])]
     }
 
-    fn prepare(&mut self, movers: &[Mover]) {
+    /// Finds the rows where the bodies are, and what their last loads do to the bodies.
+    fn prepare(&mut self, movers: &mut [Mover]) {
         let [base, body] = self.placed(movers, false);
         let kind = &self.joint.kind;
         self.now = measure(kind, &base, &body, self.joint.state.angle);
@@ -108,6 +109,16 @@ impl Work {
         if let Kind::Hinge(_) = kind {
             self.joint.state.angle = self.now[5];
         }
+        let load = |(row, multiplier): (&JointRow, &f32)| row.linear * *multiplier;
+        let force: Vec3 = self.rows.iter().zip(&self.joint.state.multipliers).map(load).sum();
+        movers[self.body as usize].stiffen(force, body.arm);
+        if let Some(index) = self.base {
+            movers[index as usize].stiffen(-force, base.arm + base.to(&body));
+        }
+    }
+
+    /// Finds how much the bodies give way to each row.
+    fn weigh(&mut self, movers: &[Mover]) {
         let movers = [self.base.map(|base| &movers[base as usize]), Some(&movers[self.body as usize])];
         for (response, row) in self.response.iter_mut().zip(&self.rows) {
             *response = 0.0;
@@ -218,7 +229,11 @@ impl Assembly {
     /// Solves for all joints in a substep.
     pub(super) fn solve(&mut self, pace: &Pace) {
         for work in &mut self.works {
-            work.prepare(&self.movers);
+            work.prepare(&mut self.movers);
+        }
+        self.movers.iter_mut().for_each(Mover::settle);
+        for work in &mut self.works {
+            work.weigh(&self.movers);
             // Rows that bodies turned under are aimed anew with the multipliers of the last substep.
             work.push(&mut self.movers, &work.joint.state.multipliers);
         }

@@ -19,6 +19,9 @@ pub(super) struct Mover {
     /// Principal moments per mass, in m².
     inertia: Vec3,
     root_inertia: Vec3,
+    /// What loads add to the inertia that impulses meet, per mass; see `stiffen`.
+    stiffness: Mat3,
+    slow_inertia: Vec3,
     /// In 1/kg; 0 = nothing moves it.
     pub(super) inverse_mass: f32,
     /// In the substep, in m and rad.
@@ -56,6 +59,7 @@ impl Mover {
         self.linear = Vec3::new(x, y, z);
         self.angular = self.start_axes * (Vec3::new(p, q, r) * column(&constants.inverse_root_inertia, lane));
         self.given = self.angular;
+        self.stiffness = Mat3::ZERO;
     }
 
     /// The row of the body, of which this was read, with what joints have changed.
@@ -69,9 +73,26 @@ impl Mover {
         row
     }
 
+    /// A force (kg m) that pulls a body by an arm turns it like a pendulum, with the stiffness (f·r) 1 − sym(r fᵀ) (Tournier
+    /// et al. 2015, Stable constrained dynamics). Where that swings faster than substeps can tell, impulses meet as
+    /// much more inertia as slows it down to what they can: Newmark's method does the same to a stiff spring.
+    pub(super) fn stiffen(&mut self, force: Vec3, arm: Vec3) {
+        let (force, arm) = (self.axes.transpose() * force, self.axes.transpose() * arm);
+        let outer = |x: Vec3, y: Vec3| Mat3::from_cols(x * y.x, x * y.y, x * y.z);
+        let lean = (outer(arm, force) + outer(force, arm)) * 0.5;
+        self.stiffness += (Mat3::from_diagonal(Vec3::splat(force.dot(arm))) - lean) * self.inverse_mass;
+    }
+
+    /// Sums up what loads do: by row, as Gershgorin bounds the frequencies.
+    pub(super) fn settle(&mut self) {
+        let columns = [self.stiffness.x_axis, self.stiffness.y_axis, self.stiffness.z_axis];
+        let bound = |k: usize| columns[k].abs().element_sum() - columns[k][k].abs() + columns[k][k];
+        self.slow_inertia = self.inertia.max(Vec3::new(bound(0), bound(1), bound(2)));
+    }
+
     /// What an angular impulse (kg m² per substep) does to the rotation.
     pub(super) fn turned_by(&self, impulse: Vec3) -> Vec3 {
-        self.axes * (self.axes.transpose() * impulse / self.inertia) * self.inverse_mass
+        self.axes * (self.axes.transpose() * impulse / self.slow_inertia) * self.inverse_mass
     }
 
     pub(super) fn push(&mut self, linear: Vec3, angular: Vec3) {
@@ -83,7 +104,7 @@ impl Mover {
     pub(super) fn mass_block(&self) -> elimination::Block {
         let mass = 1.0 / f64::from(self.inverse_mass);
         let axes = self.axes.to_cols_array_2d().map(|axis| axis.map(f64::from));
-        let inertia = self.inertia.to_array().map(|moment| f64::from(moment) * mass);
+        let inertia = self.slow_inertia.to_array().map(|moment| f64::from(moment) * mass);
         let mut block = elimination::ZERO;
         for i in 0..3 {
             block[i][i] = mass;
