@@ -1,5 +1,6 @@
 //! Joints, seen from outside: closed forms, conservation, and hostile callers.
 
+mod kinds;
 mod pendulum;
 
 use std::sync::Arc;

@@ -88,6 +88,15 @@ impl Work {
         }
     }
 
+    /// Forgets what the last step summed up, and rows that the joint has no more.
+    pub(super) fn begin(&mut self) {
+        let state = &mut self.joint.state;
+        (state.force, state.torque) = (Vec3::ZERO, Vec3::ZERO);
+        let first: usize = self.joint.kind.locks().iter().sum();
+        let mut stops = state.multipliers[first..].iter_mut().zip(self.joint.kind.stops());
+        stops.by_ref().filter(|(_, stop)| stop.is_none()).for_each(|(multiplier, _)| *multiplier = 0.0);
+    }
+
     /// Base and body, where they are or where their motions lead.
     fn placed(&self, movers: &[Mover], is_ahead: bool) -> [Placed; 2] {
         let place = |frame: &LocalFrame, mover: &Mover| {

@@ -11,8 +11,6 @@ mod stop;
 
 use std::collections::BTreeMap;
 
-use glam::Vec3;
-
 use crate::joint::{Joint, Joints, State};
 use crate::parallel;
 use crate::settings::Settings;
@@ -64,7 +62,7 @@ impl JointSolver {
     pub(super) fn begin(&mut self, joints: &Joints) {
         for work in self.assemblies.iter_mut().flat_map(|assembly| &mut assembly.works) {
             work.joint.clone_from(&joints.items[work.index as usize]);
-            (work.joint.state.force, work.joint.state.torque) = (Vec3::ZERO, Vec3::ZERO);
+            work.begin();
         }
     }
 
