@@ -1,6 +1,6 @@
 //! What each kind of joint holds, drives and lets go, against closed forms.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use tautline::{
     BallJoint, BodyHandle, DistanceJoint, FixedJoint, HalfSpace, HingeJoint, JointEvent, Motor, Quat, RigidBody,
@@ -24,7 +24,7 @@ fn a_spring_swings_at_its_frequency() {
         world.add_joint(spring.spring(frequency, ratio)).unwrap();
         let omega = TAU * f64::from(frequency);
         let damped = omega * (1.0 - f64::from(ratio).powi(2)).sqrt();
-        let (mut worst, mut phase) = (0.0f64, 0.0f64);
+        let mut worst = 0.0f64;
         for _ in 0..180 {
             world.step(DT).unwrap();
             // A spring begins with the push of a whole substep, not of half of one.
@@ -33,11 +33,11 @@ fn a_spring_swings_at_its_frequency() {
             let expected = 0.2 * decay * ((damped * t).cos() + f64::from(ratio) * omega / damped * (damped * t).sin());
             let error = f64::from(center(&world, body).x) - 1.0 - expected;
             worst = worst.max(error.abs());
-            phase = phase.max(error.abs() / (0.2 * damped * t));
         }
+        let phase = worst / (0.2 * damped * world.time());
         println!("spring of {frequency} Hz, damping {ratio}: off by {worst:.1e} m, frequency by {phase:.1e}");
-        // Newmark's period is long by (ω h)²/12 and a bit.
-        let tolerance = (omega * f64::from(DT) / 8.0).powi(2) / 6.0 + 2e-3 * f64::from(ratio.min(1.0)) + 2e-4;
+        // Newmark's period is long by (ω h)²/12.
+        let tolerance = (omega * f64::from(DT) / 8.0).powi(2) / 10.0 + 2e-5 + 2e-3 * f64::from(ratio);
         assert!(phase < tolerance, "frequency off by {phase}, allowed {tolerance}");
     }
 }
@@ -162,12 +162,14 @@ fn free_axes_are_free() {
     let shape = cuboid(0.3, 0.2, 0.1);
     let spun = world.add(RigidBody::new(&shape).angular_velocity(axis * 4.0)).unwrap();
     let hinge = world.add_joint(HingeJoint::new(spun, None).axis(axis)).unwrap();
+    let free = world.add(RigidBody::new(&shape).position(Vec3::Z * 9.0).angular_velocity(Vec3::Z * 4.0)).unwrap();
     let start = Vec3::X * 5.0;
     let slid = world.add(RigidBody::new(&shape).position(start).velocity(axis * 2.0)).unwrap();
     let slider = world.add_joint(SliderJoint::new(slid, None).axis(axis)).unwrap();
     run(&mut world, 600);
     let time = world.time() as f32;
     let angle = world.joint(hinge).unwrap().angle().unwrap();
+    println!("free {}", world.body(free).unwrap().angular_velocity());
     println!("{} rad/s", world.body(spun).unwrap().angular_velocity().length());
     println!("hinge turned {angle} of {}", 4.0 * time);
     assert!((angle / (4.0 * time) - 1.0).abs() < 1e-4);
@@ -302,11 +304,6 @@ fn loops_hold() {
         world.add_joint(joint).unwrap();
     }
     world.add_joint(BallJoint::new(bars[0], None).anchor(Vec3::ZERO)).unwrap();
-    for i in 0..120 {
-        let report = world.step(DT).unwrap();
-        let forces: Vec<Vec3> = world.joints().map(|j| world.joint(j).unwrap().force()).collect();
-        if !report.faults.is_empty() || i < 4 { println!("{i} {forces:?}"); }
-    }
     let plank = cuboid(0.25, 0.02, 0.2);
     let mut base = None;
     for k in 0..12 {
@@ -356,6 +353,28 @@ fn jointed_bodies_rest_on_the_floor() {
     assert!(speed < 2e-3 && worst < 1e-4);
 }
 
+/// What joints and contacts contradict each other in gives way somewhere, and stays where it is.
+#[test]
+fn contradictions_stay_in_bounds() {
+    let mut world = World::new(sleepless()).unwrap();
+    let link = cuboid(0.02, 0.05, 0.02);
+    let mut base = None;
+    for k in 0..10 {
+        let rod = world.add(RigidBody::new(&link).mass(0.1).position(Vec3::NEG_Y * (0.1 * k as f32 + 0.05))).unwrap();
+        world.add_joint(BallJoint::new(rod, base).anchor(Vec3::NEG_Y * (0.1 * k as f32))).unwrap();
+        base = Some(rod);
+    }
+    // Its upper half is full of links.
+    let weight = RigidBody::new(&cuboid(0.2, 0.2, 0.2)).mass(100.0).position(Vec3::NEG_Y);
+    let weight = world.add(weight).unwrap();
+    world.add_joint(BallJoint::new(weight, base).anchor(Vec3::NEG_Y)).unwrap();
+    for _ in 0..600 {
+        run(&mut world, 1);
+        let speed = world.body(weight).unwrap().velocity().length();
+        assert!(center(&world, weight).length() < 2.0 && speed < 10.0, "{} {speed}", world.time());
+    }
+}
+
 /// Removing a body removes its joints and lets go of what hung from it.
 #[test]
 fn joints_go_with_their_bodies() {
@@ -374,5 +393,5 @@ fn joints_go_with_their_bodies() {
     world.remove_joint(third).unwrap();
     assert_eq!(world.remove_joint(third), Err(tautline::Error::StaleHandle));
     run(&mut world, 30);
-    assert!(center(&world, c).y < -0.5 && PI > 3.0);
+    assert!(center(&world, c).y < -0.5);
 }

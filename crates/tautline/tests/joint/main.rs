@@ -2,6 +2,7 @@
 
 mod kinds;
 mod pendulum;
+mod refusals;
 
 use std::sync::Arc;
 

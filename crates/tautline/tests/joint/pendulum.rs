@@ -169,8 +169,6 @@ fn a_chain_holds_a_thousand_times_the_mass_of_a_link() {
             }
             let first = world.joints().next().unwrap();
             force = world.joint(first).unwrap().force();
-            let last = world.joints().last().unwrap();
-            if world.time() < 0.2 { println!("{worst:.2e} {force} {} {:?}", world.joint(last).unwrap().force(), center(&world, weight)); }
         }
         let hangs = center(&world, weight).length();
         println!("chain tilted by {tilt}: apart by {worst:.1e} m, {hangs} m long, held by {force} N");

@@ -8,7 +8,7 @@
 
 use glam::Vec3;
 
-use crate::joint::{Coordinates, Joint, Kind, LocalFrame, MOST_ROWS, Placed, measure};
+use crate::joint::{Coordinates, Joint, Kind, LocalFrame, MOST_ROWS, Placed, State, measure};
 
 use super::super::crew::Crew;
 use super::elimination::{Matrix, Part, Plan, ZERO, transposed};
@@ -24,6 +24,10 @@ const MOST_ITERATIONS: usize = 8;
 /// By how much every row gives way, as a share of how much its bodies do: it decides between joints that hold the
 /// same twice over. The error it makes is as small as this share of what the load would move a body in a substep.
 const GIVE: f32 = 1e-4;
+
+/// The share of an error at the start of a substep that it undoes. Joints by themselves make next to none; what contacts
+/// pulled apart would shake if joints and contacts undid each other's work at once.
+const RECOVERY: f32 = 0.2;
 
 /// Rows that move nothing, in 1/kg.
 const LEAST_RESPONSE: f32 = 1e-25;
@@ -88,9 +92,14 @@ impl Work {
         }
     }
 
-    /// Forgets what the last step summed up, and rows that the joint has no more.
-    pub(super) fn begin(&mut self) {
+    /// Begins a step with the joint as it is now. Rows that it has no more do nothing, nor what is not finite.
+    pub(super) fn begin(&mut self, joint: &Joint) {
+        self.joint.clone_from(joint);
+        self.is_held = [false; MOST_ROWS];
         let state = &mut self.joint.state;
+        if !state.multipliers.iter().all(|multiplier| multiplier.is_finite()) {
+            *state = State { is_broken: state.is_broken, ..State::default() };
+        }
         (state.force, state.torque) = (Vec3::ZERO, Vec3::ZERO);
         let first: usize = self.joint.kind.locks().iter().sum();
         let mut stops = state.multipliers[first..].iter_mut().zip(self.joint.kind.stops());
@@ -148,7 +157,7 @@ impl Work {
         for k in 0..linear + angular {
             let compliance = if k < linear { strength.compliance } else { strength.angular_compliance };
             let error = self.now[k];
-            let rest = if compliance > 0.0 { 0.0 } else { error - error.clamp(-pace.limit, pace.limit) };
+            let rest = if compliance > 0.0 { 0.0 } else { error - (error * RECOVERY).clamp(-pace.limit, pace.limit) };
             (self.is_held[k], self.goal[k], self.softness[k]) = (true, rest, compliance / (h * h));
         }
         for (i, stop) in self.joint.kind.stops().iter().enumerate() {

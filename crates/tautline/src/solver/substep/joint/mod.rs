@@ -60,9 +60,11 @@ impl JointSolver {
 
     /// Takes over what has been set since the last step.
     pub(super) fn begin(&mut self, joints: &Joints) {
-        for work in self.assemblies.iter_mut().flat_map(|assembly| &mut assembly.works) {
-            work.joint.clone_from(&joints.items[work.index as usize]);
-            work.begin();
+        for assembly in &mut self.assemblies {
+            assembly.movers.iter_mut().for_each(Mover::begin_step);
+            for work in &mut assembly.works {
+                work.begin(&joints.items[work.index as usize]);
+            }
         }
     }
 
@@ -75,8 +77,8 @@ impl JointSolver {
             assembly.read(shared);
             assembly.solve(&pace);
         });
-        for assembly in &self.assemblies {
-            for mover in &assembly.movers[..assembly.solved] {
+        for assembly in &mut self.assemblies {
+            for mover in &mut assembly.movers[..assembly.solved] {
                 let row = mover.row(&crew.velocities[mover.place as usize]);
                 crew.set_velocity(mover.place as usize, row);
             }

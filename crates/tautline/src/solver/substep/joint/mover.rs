@@ -1,6 +1,6 @@
 //! One body of an assembly: where it is, how it moves, and where that takes it.
 
-use glam::{Mat3, Vec3};
+use glam::{DVec3, Mat3, Vec3};
 
 use crate::simd::{LANES, Row};
 
@@ -27,8 +27,12 @@ pub(super) struct Mover {
     /// In the substep, in m and rad.
     pub(super) linear: Vec3,
     pub(super) angular: Vec3,
-    /// The rotation that forces and contacts gave it.
-    given: Vec3,
+    /// Motion that forces and contacts gave it, …
+    given: [Vec3; 2],
+    /// … and what joints add to that.
+    gained: [DVec3; 2],
+    /// What the row was too coarse for in earlier substeps of this step: momentum would get lost with it.
+    lost: [DVec3; 2],
     /// Where the motion turns the axes to.
     pub(super) turned: Mat3,
 }
@@ -58,19 +62,27 @@ impl Mover {
         let [x, y, z, _, p, q, r, _] = velocities[self.place as usize].0;
         self.linear = Vec3::new(x, y, z);
         self.angular = self.start_axes * (Vec3::new(p, q, r) * column(&constants.inverse_root_inertia, lane));
-        self.given = self.angular;
+        self.given = [self.linear, self.angular];
+        self.gained = [DVec3::ZERO; 2];
         self.stiffness = Mat3::ZERO;
     }
 
     /// The row of the body, of which this was read, with what joints have changed.
-    pub(super) fn row(&self, before: &Row) -> Row {
+    pub(super) fn row(&mut self, before: &Row) -> Row {
         let mut row = *before;
-        let turn = self.start_axes.transpose() * (self.angular - self.given) * self.root_inertia;
-        row.0[..3].copy_from_slice(&self.linear.to_array());
-        for (number, change) in row.0[4..7].iter_mut().zip(turn.to_array()) {
-            *number += change;
+        let turn = self.start_axes.transpose() * self.gained[1].as_vec3() * self.root_inertia;
+        let changes = [self.gained[0], turn.as_dvec3()];
+        for (k, (change, lost)) in changes.into_iter().zip(&mut self.lost).enumerate() {
+            let place = &mut row.0[4 * k..4 * k + 3];
+            let exact = DVec3::new(place[0].into(), place[1].into(), place[2].into()) + change + *lost;
+            place.copy_from_slice(&exact.as_vec3().to_array());
+            *lost = exact - exact.as_vec3().as_dvec3();
         }
         row
+    }
+
+    pub(super) fn begin_step(&mut self) {
+        self.lost = [DVec3::ZERO; 2];
     }
 
     /// A force (kg m) that pulls a body by an arm turns it like a pendulum, with the stiffness (f·r) 1 − sym(r fᵀ) (Tournier
@@ -96,8 +108,10 @@ impl Mover {
     }
 
     pub(super) fn push(&mut self, linear: Vec3, angular: Vec3) {
-        self.linear += linear * self.inverse_mass;
-        self.angular += self.turned_by(angular);
+        self.gained[0] += linear.as_dvec3() * f64::from(self.inverse_mass);
+        self.gained[1] += self.turned_by(angular).as_dvec3();
+        self.linear = (self.given[0].as_dvec3() + self.gained[0]).as_vec3();
+        self.angular = (self.given[1].as_dvec3() + self.gained[1]).as_vec3();
     }
 
     /// Mass and inertia about the axes of the world.
