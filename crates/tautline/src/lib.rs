@@ -71,6 +71,7 @@ mod collision;
 pub mod constraint;
 mod error;
 pub mod geometry;
+mod joint;
 mod measure;
 pub mod mesh;
 mod parallel;
@@ -93,6 +94,10 @@ pub use body::{
 };
 pub use error::{Error, MeshDefect};
 pub use glam::{DVec3, Mat3, Quat, Vec3};
+pub use joint::{
+    BallJoint, DistanceJoint, FixedJoint, HingeJoint, JointDescription, JointEvent, JointHandle, JointKind, JointView,
+    Motor, SliderJoint,
+};
 pub use measure::{Penetration, Strain};
 pub use query::{CastHit, PointHit, QueryFilter, RayHit};
 pub use report::{Fault, PhaseSeconds, StepReport};

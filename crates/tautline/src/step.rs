@@ -61,8 +61,9 @@ impl World {
 
     /// Finds where rigid bodies touch, once for all substeps.
     fn begin_rigid(&mut self, h: f32, report: &mut StepReport, watch: &mut Stopwatch<'_, '_>) {
-        let Self { rigid, bodies, particles, settings, .. } = self;
-        rigid.begin(bodies, particles, settings, h);
+        let Self { rigid, bodies, particles, joints, settings, .. } = self;
+        joints.events.clear();
+        rigid.begin((bodies, particles, joints), settings, h);
         watch.lap(Phase::FindPairs);
         report.contacts += rigid.find_contacts(bodies, settings, h);
         report.pairs += rigid.pair_count();
@@ -82,6 +83,8 @@ impl World {
             rigid.invalidate();
             report.faults.push(Fault { body: slots.handle(lost.body), particle: lost.particle });
         }
+        let states = self.rigid.finish_joints(&self.settings, h);
+        self.finish_joints(states);
     }
 
     fn substep(&mut self, h: f32, report: &mut StepReport, watch: &mut Stopwatch<'_, '_>) {

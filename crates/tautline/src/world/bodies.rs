@@ -96,7 +96,7 @@ impl World {
         self.slots.push()
     }
 
-    /// Removes a body and its particles, and wakes what may have rested on it.
+    /// Removes a body with its particles and its joints, and wakes what may have rested on it or hung from it.
     ///
     /// # Errors
     /// [`Error::StaleHandle`].
@@ -111,9 +111,11 @@ impl World {
         self.slots.remove(index);
         self.pairs.remove_body(index as u32);
         self.rigid.remove_body(index);
+        let let_go = self.joints.remove_body(index as u32);
         for body in &mut self.bodies[index..] {
             body.particles = body.particles.start - range.len()..body.particles.end - range.len();
         }
+        let_go.into_iter().for_each(|body| self.wake_body(body as usize));
         Ok(())
     }
 }

@@ -14,6 +14,7 @@ use glam::Vec3;
 use crate::body::Body;
 use crate::collision::{Candidate, Contact, NarrowPhase, PairCache};
 use crate::error::Error;
+use crate::joint::Joints;
 use crate::particles::Particles;
 use crate::query::Index;
 use crate::rest::wake_around;
@@ -51,6 +52,7 @@ pub struct World {
     pub(crate) bodies: Vec<Body>,
     pub(crate) slots: Slots,
     pub(crate) pairs: PairCache,
+    pub(crate) joints: Joints,
     pub(crate) rigid: RigidSolver,
     pub(crate) grabs: Grabs,
     /// What queries search, made when one is asked and forgotten when something moves.
@@ -87,6 +89,7 @@ impl World {
             bodies: Vec::new(),
             slots: Slots::default(),
             pairs: PairCache::default(),
+            joints: Joints::default(),
             rigid: RigidSolver::default(),
             grabs: Grabs::default(),
             index: OnceLock::new(),
@@ -117,7 +120,7 @@ impl World {
     }
 
     /// Wakes a body and, if it slept, the sleepers that may rest on it.
-    fn wake_body(&mut self, index: usize) {
+    pub(crate) fn wake_body(&mut self, index: usize) {
         if self.bodies[index].rest.asleep {
             self.wake_neighbours(index);
         }

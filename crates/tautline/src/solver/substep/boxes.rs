@@ -83,7 +83,9 @@ impl RigidSolver {
             else {
                 continue;
             };
-            if rigid_a.traits.groups.collide_with(rigid_b.traits.groups) {
+            let pair = [a.body.min(b.body), a.body.max(b.body)];
+            let is_separated = self.separated.binary_search(&pair).is_ok();
+            if !is_separated && rigid_a.traits.groups.collide_with(rigid_b.traits.groups) {
                 pair_parts((a, rigid_a), (b, rigid_b), keys);
             }
         }

@@ -178,6 +178,11 @@ impl Crew {
         self.for_each(lineup, lineup.stripes(), |squad| run(instructions, Kick { squad, is_first }));
     }
 
+    /// Gives a body a velocity that is not to be given to it again in the next substep.
+    pub(super) fn set_velocity(&mut self, place: usize, row: Row) {
+        (self.velocities[place], self.before[place]) = (row, row);
+    }
+
     /// Moves all bodies by a substep.
     pub(super) fn advance(&mut self, lineup: &Lineup, timing: &Timing) {
         self.for_each(lineup, lineup.stripes(), |squad| {

@@ -117,6 +117,30 @@ impl Lineup {
         self.places.resize(length, NOBODY);
     }
 
+    /// Checks a lineup from untrusted bytes.
+    pub(super) fn is_valid(&self, body_count: usize) -> bool {
+        let count = self.places.len();
+        let is_body = |body: u32| body == NOBODY || (body as usize) < body_count;
+        let mut end = 0;
+        let stripes_follow = self.stripes.iter().all(|stripe| {
+            let Stripe { places, driven } = stripe;
+            let follows = places.start == end && places.end as usize % LANES == 0 && places.start < places.end;
+            end = places.end;
+            follows && *driven >= places.start && driven.saturating_add(self.driven_count) < places.end
+        });
+        let is_place = |(body, &place): (usize, &u32)| {
+            place == NOBODY || self.places.get(place as usize).is_some_and(|&other| other as usize == body)
+        };
+        count % LANES == 0
+            && (count == 0 || !self.stripes.is_empty() && self.places[count - 1] == NOBODY)
+            && stripes_follow
+            && end as usize == self.solved
+            && self.moving() <= count
+            && self.place_of.len() <= body_count
+            && self.places.iter().all(|&body| is_body(body))
+            && self.place_of.iter().enumerate().all(is_place)
+    }
+
     /// The runs of places that are solved side by side.
     pub(super) fn stripes(&self) -> impl Iterator<Item = Range<usize>> {
         self.stripes.iter().map(|stripe| stripe.places.start as usize..stripe.places.end as usize)
@@ -188,6 +212,11 @@ impl Lineup {
         let stripe = &self.stripes[stripe as usize];
         let copy = stripe.driven + (place - self.solved as u32);
         if place < self.solved as u32 + self.driven_count { copy } else { stripe.places.end - 1 }
+    }
+
+    /// Whether this is the place of a kinematic body.
+    pub(super) fn is_driven(&self, place: u32) -> bool {
+        (self.solved as u32..self.solved as u32 + self.driven_count).contains(&place)
     }
 
     /// The places whose bodies' particles the solver writes: free bodies, and the first copy of kinematic ones.

@@ -13,6 +13,7 @@ mod crew;
 mod detect;
 mod group;
 mod held;
+mod joint;
 mod lineup;
 mod pairs;
 mod prepare;
@@ -26,17 +27,29 @@ use serde::{Deserialize, Serialize};
 use crate::body::{Body, Frame, Motion, Substance};
 use crate::collision::bvh::PairSearch;
 use crate::geometry::manifold;
+use crate::joint::{Joints, State as JointState};
 use crate::parallel;
 use crate::particles::Particles;
 use crate::settings::Settings;
 use crate::simd::{LANES, run};
 
 use contact::{Pass, Softness};
-use crew::{Crew, Timing};
+use crew::{Crew, Timing, Track};
 use detect::{Detect, Scene};
 use group::Groups;
+use joint::JointSolver;
 use lineup::{Entry, Lineup, NOBODY, Role};
 use pairs::Pairs;
+
+/// What a snapshot keeps: all that the next step depends on and that is not in the particles.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Kept {
+    lineup: Lineup,
+    tracks: Vec<Track>,
+    pairs: Pairs,
+    versions: Vec<u32>,
+    is_stale: bool,
+}
 
 /// The rigid bodies of a world, as they are kept from step to step.
 #[derive(Debug, Clone, Default)]
@@ -48,7 +61,12 @@ pub(crate) struct RigidSolver {
     versions: Vec<u32>,
     /// Whether bodies have come, gone, fallen asleep or changed their kind since the lineup was made.
     is_stale: bool,
+    /// Whether what never moves has been read.
+    is_read: bool,
     groups: Groups,
+    joints: JointSolver,
+    /// Pairs of bodies that do not collide since a joint connects them, sorted.
+    separated: Vec<[u32; 2]>,
     softness: Softness,
     search: PairSearch,
     scratch: manifold::Scratch,
@@ -88,19 +106,59 @@ impl RigidSolver {
         self.is_stale = true;
     }
 
+    pub(crate) fn kept(&self) -> Kept {
+        Kept {
+            lineup: self.lineup.clone(),
+            tracks: self.crew.tracks.clone(),
+            pairs: self.pairs.clone(),
+            versions: self.versions.clone(),
+            is_stale: self.is_stale,
+        }
+    }
+
+    /// Goes on from what was kept, which comes from untrusted bytes.
+    pub(crate) fn restore(kept: Kept, bodies: &[Body], joints: &Joints) -> Option<Self> {
+        let Kept { lineup, tracks, pairs, versions, is_stale } = kept;
+        let is_sound = lineup.is_valid(bodies.len())
+            && tracks.len() * LANES == lineup.places.len()
+            && (versions.len() == bodies.len() || is_stale)
+            && pairs.is_valid(bodies);
+        if !is_sound {
+            return None;
+        }
+        let mut solver = Self { groups: Groups::new(&lineup), pairs, versions, is_stale, ..Self::default() };
+        if !lineup.places.is_empty() {
+            solver.crew = Crew::new(&lineup, bodies);
+            solver.crew.tracks = tracks;
+            solver.joints.assemble(joints, &lineup);
+            solver.separated = joints.separated();
+        }
+        solver.lineup = lineup;
+        Some(solver)
+    }
+
     /// How many pairs of parts are near each other.
     pub(crate) fn pair_count(&self) -> usize {
         self.pairs.pairs.len()
     }
 
     /// Reads the bodies and finds out who may meet whom.
-    pub(crate) fn begin(&mut self, bodies: &[Body], particles: &Particles, settings: &Settings, h: f32) {
+    pub(crate) fn begin(
+        &mut self,
+        (bodies, particles, joints): (&[Body], &Particles, &Joints),
+        settings: &Settings,
+        h: f32,
+    ) {
         let timing = timing(settings, h);
         let is_first = std::mem::take(&mut self.is_stale) || self.lineup.places.is_empty();
         if is_first {
             self.line_up(bodies, particles);
+            self.joints.assemble(joints, &self.lineup);
+            self.separated = joints.separated();
         }
-        self.crew.read(&self.lineup, (bodies, particles), &timing, is_first);
+        self.joints.begin(joints);
+        let is_unread = is_first || !std::mem::replace(&mut self.is_read, true);
+        self.crew.read(&self.lineup, (bodies, particles), &timing, is_unread);
         let leaves = self.crew.count_versions(&self.lineup, &mut self.versions);
         if is_first || leaves {
             self.find_pairs(bodies, settings);
@@ -168,11 +226,12 @@ impl RigidSolver {
         self.groups.prepare(&self.pairs, poses, ground, &mut self.crew.accumulated, settings.instructions);
     }
 
-    /// One substep: forces, contacts, motion, contacts without bias.
+    /// One substep: forces, joints, contacts, motion, contacts without bias.
     pub(crate) fn substep(&mut self, settings: &Settings, h: f32, is_first: bool) {
         let (timing, instructions) = (timing(settings, h), settings.instructions);
         self.groups.meet(&mut self.crew, h, instructions);
         self.crew.kick(&self.lineup, is_first, instructions);
+        self.joints.solve(&mut self.crew, settings, h);
         self.groups.pass(Pass::Biased, &self.softness, &mut self.crew.velocities, instructions);
         self.crew.advance(&self.lineup, &timing);
         self.groups.pass(Pass::Relaxing, &self.softness, &mut self.crew.velocities, instructions);
@@ -218,6 +277,11 @@ impl RigidSolver {
         }
         lost.sort_unstable_by_key(|lost| lost.body);
         lost
+    }
+
+    /// What the step has made of the joints, by their index.
+    pub(crate) fn finish_joints(&self, settings: &Settings, h: f32) -> Vec<(u32, JointState)> {
+        self.joints.finish(settings, h)
     }
 
     fn keep_multipliers(&mut self) {

@@ -5,8 +5,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::held::Held;
-use crate::body::Touch;
+use super::held::{Held, MOST_POINTS};
+use crate::body::{Body, Touch};
 use crate::geometry::manifold::Memory;
 
 /// What is looked at in every step.
@@ -79,6 +79,18 @@ impl Pairs {
             self.pairs.push(pair);
             self.details.push(detail);
         }
+    }
+
+    /// Checks a list from untrusted bytes.
+    pub(super) fn is_valid(&self, bodies: &[Body]) -> bool {
+        let is_sound = |(pair, detail): (&Pair, &Detail)| {
+            let exist = (pair.a.max(pair.b) as usize) < bodies.len();
+            let is_held = detail.held.as_ref().is_some_and(|held| held.is_sound());
+            exist && pair.points as usize <= MOST_POINTS && (pair.points == 0 || is_held) && detail.touch.is_sound()
+        };
+        self.pairs.len() == self.details.len()
+            && self.pairs.iter().zip(&self.details).all(is_sound)
+            && (1..self.pairs.len()).all(|index| self.key(index - 1) < self.key(index))
     }
 
     /// Forgets the pairs of a body that is removed; the bodies behind it move down.
