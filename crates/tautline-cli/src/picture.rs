@@ -66,7 +66,8 @@ pub(crate) fn svg(drawing: &impl Drawing) -> Result<String, Box<dyn Error>> {
     Ok(text)
 }
 
-fn image(drawing: &impl Drawing) -> Result<Image, Box<dyn Error>> {
+/// A drawing as pixels.
+pub(crate) fn image(drawing: &impl Drawing) -> Result<Image, Box<dyn Error>> {
     let scale = PNG_SCALE * SAMPLES;
     let (width, height) = drawing.size();
     let (width, height) = (width * scale, height * scale);

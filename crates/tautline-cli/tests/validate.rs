@@ -4,7 +4,7 @@ mod program;
 
 use std::fs;
 
-use program::{errors, tautline, texts};
+use program::{errors, printed, tautline, texts};
 use serde_json::Value;
 use tempfile::tempdir;
 
@@ -32,6 +32,13 @@ fn cases_are_told_of_in_full_and_written() {
     assert_eq!(output.status.code(), Some(if all_pass { 0 } else { 1 }));
     let chart = fs::read_to_string(folder.path().join("new/v.svg")).unwrap();
     assert!(chart.starts_with("<svg") && chart.contains("rapier3d"));
+}
+
+#[test]
+fn a_case_that_passes_is_exit_code_0() {
+    let folder = tempdir().unwrap();
+    let text = printed(folder.path(), &["validate", "1"]);
+    assert!(text.contains("\n1 of 1 cases pass\n"), "{text}");
 }
 
 #[test]

@@ -34,14 +34,14 @@ fn results_do_not_depend_on_the_threads() {
 }
 
 #[test]
-fn numbers_are_given_once_and_a_worse_setting_shows() {
+fn numbers_are_given_once_and_the_wrong_gravity_shows() {
     let all = cases();
     assert!(all.is_sorted_by(|a, b| a.id < b.id));
     assert!(figures().is_sorted_by(|a, b| a.id < b.id));
     let mut free_fall = cases();
     free_fall.retain(|case| case.id == 1);
     let mut conditions = Conditions::default();
-    conditions.settings.damping = 0.1;
+    conditions.settings.gravity.y = -9.8;
     let outcome = run(&free_fall, &conditions, || ()).unwrap().remove(0);
     assert!(!outcome.pass && outcome.ratio() > 100.0, "{outcome:?}");
 }

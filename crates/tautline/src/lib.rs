@@ -123,8 +123,8 @@ pub use body::{
 pub use error::{Error, MeshDefect};
 pub use glam::{DVec3, Mat3, Quat, Vec3};
 pub use joint::{
-    BallJoint, DistanceJoint, FixedJoint, HingeJoint, JointDescription, JointEvent, JointHandle, JointKind, JointView,
-    Motor, SliderJoint,
+    BallJoint, DistanceJoint, FixedJoint, HingeJoint, JointDescription, JointEvent, JointHandle, JointKind,
+    JointView, Motor, SliderJoint,
 };
 pub use measure::{Penetration, Strain};
 pub use query::{CastHit, PointHit, QueryFilter, RayHit};

@@ -11,8 +11,8 @@ use crate::error::Error;
 use crate::joint::Joints;
 use crate::particles::Particles;
 use crate::settings::Settings;
-use crate::slots::Slots;
 use crate::shape::Shape;
+use crate::slots::Slots;
 use crate::solver::substep::{Kept, RigidSolver};
 use crate::world::{Grabs, Scratch, World};
 

@@ -176,6 +176,7 @@ pub(super) fn number(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::picture::{image, svg};
 
     fn chart() -> Chart {
         let rising = Line { name: "rising", points: vec![(5.0, 10.0), (50.0, 12_500.0)] };

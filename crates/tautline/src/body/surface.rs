@@ -97,7 +97,9 @@ pub(crate) struct Touch {
 
 impl Touch {
     pub(crate) fn is_sound(&self) -> bool {
-        [self.friction, self.restitution, self.rolling_friction].iter().all(|number| (0.0..=1e12).contains(number))
+        [self.friction, self.restitution, self.rolling_friction]
+            .iter()
+            .all(|number| (0.0..=1e12).contains(number))
     }
 }
 

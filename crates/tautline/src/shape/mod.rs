@@ -21,7 +21,7 @@ pub use decompose::Decomposition;
 
 pub(crate) use convex::{Convex, Face};
 pub(crate) use part::Part;
-pub(crate) use surface::{Surface, Triangle};
+pub(crate) use surface::Surface;
 
 /// The shape of a rigid body: made once, never changed, shared by all bodies that look alike.
 ///

@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use tautline::{
-    BallJoint, BodyHandle, DistanceJoint, FixedJoint, HalfSpace, HingeJoint, JointEvent, Motor, Quat, RigidBody,
-    Settings, SliderJoint, Vec3, World,
+    BallJoint, BodyHandle, DistanceJoint, FixedJoint, HalfSpace, HingeJoint, JointEvent, Motor, Quat,
+    RigidBody, Settings, SliderJoint, Vec3, World,
 };
 
 use crate::{DT, center, cuboid, run, sleepless, weightless};
@@ -30,7 +30,8 @@ fn a_spring_swings_at_its_frequency() {
             // A spring begins with the push of a whole substep, not of half of one.
             let t = world.time() + f64::from(DT) / 16.0;
             let decay = (-f64::from(ratio) * omega * t).exp();
-            let expected = 0.2 * decay * ((damped * t).cos() + f64::from(ratio) * omega / damped * (damped * t).sin());
+            let expected =
+                0.2 * decay * ((damped * t).cos() + f64::from(ratio) * omega / damped * (damped * t).sin());
             let error = f64::from(center(&world, body).x) - 1.0 - expected;
             worst = worst.max(error.abs());
         }
@@ -131,7 +132,8 @@ fn limits_hold() {
     let shoulder = BallJoint::new(arm, None).anchor(Vec3::Z * 5.0).axis(Vec3::X).cone(0.4).twist(-0.3, 0.3);
     let shoulder = world.add_joint(shoulder).unwrap();
     let weight = add(&mut world, Vec3::splat(0.1), Vec3::X * 3.0, 1.0);
-    let rope = DistanceJoint::new(weight, None).anchors(Vec3::X * 3.0, Vec3::new(3.0, 0.5, 0.0)).range(0.0, 1.0);
+    let rope =
+        DistanceJoint::new(weight, None).anchors(Vec3::X * 3.0, Vec3::new(3.0, 0.5, 0.0)).range(0.0, 1.0);
     let rope = world.add_joint(rope).unwrap();
     let spin = RigidBody::new(&cuboid(0.3, 0.1, 0.2)).position(Vec3::X * 9.0).angular_velocity(Vec3::Y * 7.0);
     let spin = world.add(spin).unwrap();
@@ -162,7 +164,8 @@ fn free_axes_are_free() {
     let shape = cuboid(0.3, 0.2, 0.1);
     let spun = world.add(RigidBody::new(&shape).angular_velocity(axis * 4.0)).unwrap();
     let hinge = world.add_joint(HingeJoint::new(spun, None).axis(axis)).unwrap();
-    let free = world.add(RigidBody::new(&shape).position(Vec3::Z * 9.0).angular_velocity(Vec3::Z * 4.0)).unwrap();
+    let free =
+        world.add(RigidBody::new(&shape).position(Vec3::Z * 9.0).angular_velocity(Vec3::Z * 4.0)).unwrap();
     let start = Vec3::X * 5.0;
     let slid = world.add(RigidBody::new(&shape).position(start).velocity(axis * 2.0)).unwrap();
     let slider = world.add_joint(SliderJoint::new(slid, None).axis(axis)).unwrap();
@@ -188,7 +191,8 @@ fn free_axes_are_free() {
 fn welded_boxes_move_as_one() {
     let spin = Vec3::new(1.0, 2.0, 3.0);
     let mut world = World::new(sleepless()).unwrap();
-    let whole = RigidBody::new(&cuboid(0.4, 0.1, 0.15)).mass(2.0).position(Vec3::Z * 5.0).angular_velocity(spin);
+    let whole =
+        RigidBody::new(&cuboid(0.4, 0.1, 0.15)).mass(2.0).position(Vec3::Z * 5.0).angular_velocity(spin);
     let whole = world.add(whole).unwrap();
     let half = cuboid(0.2, 0.1, 0.15);
     let [left, right] = [-0.2f32, 0.2].map(|x| {
@@ -259,9 +263,15 @@ fn joints_keep_momentum() {
         let (base, point) = (bodies.last().copied(), position - Vec3::X * 0.3);
         match (k, base) {
             (1, Some(base)) => world.add_joint(BallJoint::new(body, base).anchor(point)).map(|_| ()).unwrap(),
-            (2, Some(base)) => world.add_joint(HingeJoint::new(body, base).anchor(point)).map(|_| ()).unwrap(),
-            (3, Some(base)) => world.add_joint(SliderJoint::new(body, base).anchor(point)).map(|_| ()).unwrap(),
-            (4, Some(base)) => world.add_joint(FixedJoint::new(body, base).anchor(point)).map(|_| ()).unwrap(),
+            (2, Some(base)) => {
+                world.add_joint(HingeJoint::new(body, base).anchor(point)).map(|_| ()).unwrap()
+            }
+            (3, Some(base)) => {
+                world.add_joint(SliderJoint::new(body, base).anchor(point)).map(|_| ()).unwrap()
+            }
+            (4, Some(base)) => {
+                world.add_joint(FixedJoint::new(body, base).anchor(point)).map(|_| ()).unwrap()
+            }
             _ => {}
         }
         bodies.push(body);
@@ -282,7 +292,10 @@ fn joints_keep_momentum() {
     let [linear, angular] = momentum(&world);
     run(&mut world, 300);
     let [linear_now, angular_now] = momentum(&world);
-    let errors = [(linear_now - linear).length() / linear.length(), (angular_now - angular).length() / angular.length()];
+    let errors = [
+        (linear_now - linear).length() / linear.length(),
+        (angular_now - angular).length() / angular.length(),
+    ];
     println!("momentum off by {:.1e}, angular by {:.1e}", errors[0], errors[1]);
     assert!(errors[0] < 1e-6 && errors[1] < 1e-5, "{errors:?}");
 }
@@ -297,7 +310,9 @@ fn loops_hold() {
     for k in 0..4 {
         let (from, to) = (corners[k], corners[(k + 1) % 4]);
         let rotation = Quat::from_rotation_arc(Vec3::X, (to - from).normalize());
-        bars.push(world.add(RigidBody::new(&bar).position((from + to) * 0.5).rotation(rotation).mass(1.0)).unwrap());
+        bars.push(
+            world.add(RigidBody::new(&bar).position((from + to) * 0.5).rotation(rotation).mass(1.0)).unwrap(),
+        );
     }
     for k in 0..4 {
         let joint = HingeJoint::new(bars[k], bars[(k + 3) % 4]).anchor(corners[k]).axis(Vec3::Z);
@@ -360,7 +375,9 @@ fn contradictions_stay_in_bounds() {
     let link = cuboid(0.02, 0.05, 0.02);
     let mut base = None;
     for k in 0..10 {
-        let rod = world.add(RigidBody::new(&link).mass(0.1).position(Vec3::NEG_Y * (0.1 * k as f32 + 0.05))).unwrap();
+        let rod = world
+            .add(RigidBody::new(&link).mass(0.1).position(Vec3::NEG_Y * (0.1 * k as f32 + 0.05)))
+            .unwrap();
         world.add_joint(BallJoint::new(rod, base).anchor(Vec3::NEG_Y * (0.1 * k as f32))).unwrap();
         base = Some(rod);
     }

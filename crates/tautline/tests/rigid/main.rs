@@ -10,6 +10,7 @@ mod picking;
 mod queries;
 mod refusals;
 mod stacks;
+mod surfaces;
 
 use std::sync::Arc;
 

@@ -6,6 +6,7 @@ use glam::{DVec3, Vec3};
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, all_coordinates, within};
+use crate::geometry::manifold::Triangle;
 use crate::mesh::{HalfEdgeMesh, TriMesh};
 use tree::{Tree, bounds};
 
@@ -25,19 +26,6 @@ pub(crate) struct Surface {
     /// By triangle, a bit for each side: see [`Triangle::active_edges`].
     active: Vec<u8>,
     tree: Tree,
-}
-
-/// A triangle of a surface.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Triangle {
-    /// Counter-clockwise seen from where the normal points to, in m.
-    pub(crate) corners: [Vec3; 3],
-    /// Unit.
-    pub(crate) normal: Vec3,
-    /// Bit k is set if the side from corner k to corner k + 1 can be felt from outside: it is open, or a ridge of
-    /// more than 5°. Elsewhere a contact's normal is the triangle's own, so that what slides over a flat floor
-    /// does not trip over its seams (as in Jolt's active edges).
-    pub(crate) active_edges: u8,
 }
 
 impl Surface {

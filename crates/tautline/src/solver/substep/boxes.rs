@@ -9,6 +9,7 @@ use crate::body::{Body, CollisionGroups, HalfSpace, Motion, Rigid, Substance};
 use crate::collision::Aabb;
 use crate::collision::bvh::overlapping_pairs;
 use crate::settings::Settings;
+use crate::shape::{Part, Surface};
 use crate::simd::LANES;
 
 /// By how much more than it needs a body's box is larger, as a share of its reach.
@@ -64,7 +65,10 @@ impl RigidSolver {
         let room = need * (1.0 + STEPS_AHEAD) + SKIN * rigid.shape.reach();
         let parts = rigid.shape.parts().iter().map(|part| world_box(center, axes, part.low, part.high));
         let nothing = Aabb { low: Vec3::INFINITY, high: Vec3::NEG_INFINITY };
+        let surface = rigid.shape.surface().map(|surface| surface.bounds());
+        let surface = surface.map(|(low, high)| world_box(center, axes, low, high));
         let bounds = parts
+            .chain(surface)
             .fold(nothing, |sum, part| Aabb { low: sum.low.min(part.low), high: sum.high.max(part.high) });
         Boxed { body, room, center, axes, bounds: grown(bounds, room) }
     }
@@ -92,11 +96,15 @@ impl RigidSolver {
     }
 }
 
-/// All pairs of parts whose boxes overlap.
+/// All pairs of parts, or of parts and triangles, whose boxes overlap.
 fn pair_parts((a, rigid_a): (&Boxed, &Rigid), (b, rigid_b): (&Boxed, &Rigid), keys: &mut Vec<Key>) {
     let (parts_a, parts_b) = (rigid_a.shape.parts(), rigid_b.shape.parts());
     let (centers, reach) = (a.center.distance(b.center), rigid_a.shape.reach() + rigid_b.shape.reach());
     if centers > reach + a.room + b.room {
+        return;
+    }
+    if let Some(surface) = rigid_b.shape.surface() {
+        pair_with_triangles((a, parts_a), (b, surface), keys);
         return;
     }
     if parts_a.len() == 1 && parts_b.len() == 1 {
@@ -111,6 +119,19 @@ fn pair_parts((a, rigid_a): (&Boxed, &Rigid), (b, rigid_b): (&Boxed, &Rigid), ke
                 keys.push(Key { a: a.body, b: b.body, part_a, part_b });
             }
         }
+    }
+}
+
+/// All triangles of a surface near the parts of a body.
+fn pair_with_triangles((a, parts): (&Boxed, &[Part]), (b, surface): (&Boxed, &Surface), keys: &mut Vec<Key>) {
+    let mut triangles = Vec::new();
+    let to_b = b.axes.transpose();
+    let (center, axes) = (to_b * (a.center - b.center), to_b * a.axes);
+    for (part_a, part) in (0..).zip(parts) {
+        let near = grown(world_box(center, axes, part.low, part.high), a.room + b.room);
+        triangles.clear();
+        surface.triangles_in(near.low, near.high, &mut triangles);
+        keys.extend(triangles.iter().map(|&part_b| Key { a: a.body, b: b.body, part_a, part_b }));
     }
 }
 

@@ -185,9 +185,7 @@ impl Crew {
 
     /// Moves all bodies by a substep.
     pub(super) fn advance(&mut self, lineup: &Lineup, timing: &Timing) {
-        self.for_each(lineup, lineup.stripes(), |squad| {
-            run(timing.instructions, Advance { squad, h: timing.h })
-        });
+        self.for_each(lineup, lineup.stripes(), |squad| run(timing.instructions, Advance { squad, timing }));
     }
 
     /// The particles of eight bodies as they are now: positions and displacements.
@@ -470,7 +468,7 @@ impl Kernel for Kick<'_, '_> {
 
 struct Advance<'a, 'b> {
     squad: &'a mut Squad<'b>,
-    h: f32,
+    timing: &'a Timing,
 }
 
 impl Kernel for Advance<'_, '_> {
@@ -487,7 +485,8 @@ impl Kernel for Advance<'_, '_> {
                 let change = L::load(velocity) - L::load(before);
                 (L::load(accumulated) + change).store(accumulated);
             }
-            let columns = rigidity::advance::<L>(block, &load(velocities), self.h);
+            let columns =
+                rigidity::advance::<L>(block, &load(velocities), self.timing.h, self.timing.damping);
             store(columns, velocities);
             before.copy_from_slice(velocities);
         }

@@ -9,8 +9,10 @@ use glam::{Mat3, Vec3};
 use super::held::{Held, HeldPoint};
 use super::pairs::{Detail, Pair};
 use crate::body::{Body, Substance};
-use crate::geometry::manifold::{Manifold, Placement, Scratch, collide, collide_plane, separation_along};
-use crate::shape::Convex;
+use crate::geometry::manifold::{
+    Manifold, Placement, Scratch, collide, collide_plane, collide_triangle, separation_along,
+};
+use crate::shape::{Convex, Surface};
 use crate::simd::{Kernel, Lanes, Row};
 
 /// What the narrow phase reads.
@@ -125,10 +127,17 @@ fn update<L: Lanes>(scene: Scene<'_>, pair: &mut Pair, detail: &mut Detail, scra
         }
         _ => {
             let b = scene.placed(pair.b);
-            let parts =
-                part(scene.bodies, pair.a, detail.part_a).zip(part(scene.bodies, pair.b, detail.part_b));
-            let Some(parts) = parts else { return };
-            (collide_parts::<L>(scene, parts, (&a, &b), detail, scratch), b)
+            let Some(part_a) = part(scene.bodies, pair.a, detail.part_a) else { return };
+            let manifold = match surface(scene.bodies, pair.b) {
+                Some(surface) => {
+                    collide_with_triangle::<L>(scene, (part_a, surface), (&a, &b), detail, scratch)
+                }
+                None => {
+                    let Some(part_b) = part(scene.bodies, pair.b, detail.part_b) else { return };
+                    collide_parts::<L>(scene, (part_a, part_b), (&a, &b), detail, scratch)
+                }
+            };
+            (manifold, b)
         }
     };
     pair.points = manifold.count as u32;
@@ -146,6 +155,37 @@ fn part(bodies: &[Body], body: u32, part: u32) -> Option<&Convex> {
     }
 }
 
+fn surface(bodies: &[Body], body: u32) -> Option<&Surface> {
+    match &bodies[body as usize].substance {
+        Substance::Rigid(rigid) => rigid.shape.surface(),
+        _ => None,
+    }
+}
+
+/// Where the frame of b is in that of a, how a approaches b in a step (m, in a's frame), and how far ahead their
+/// contacts are looked for because they turn (m).
+#[inline(always)]
+fn relative(scene: Scene<'_>, a: &Placed, b: &Placed) -> (Placement, Vec3, f32) {
+    let to_a = a.axes.transpose();
+    let b_in_a = Placement { rotation: to_a * b.axes, translation: to_a * (b.center - a.center) };
+    (b_in_a, to_a * (a.motion - b.motion), scene.margin + 0.5 * (a.turning + b.turning))
+}
+
+#[inline(always)]
+fn collide_with_triangle<L: Lanes>(
+    scene: Scene<'_>,
+    (part, surface): (&Convex, &Surface),
+    (a, b): (&Placed, &Placed),
+    detail: &mut Detail,
+    scratch: &mut Scratch,
+) -> Manifold {
+    let (b_in_a, approach, base) = relative(scene, a, b);
+    let triangle = surface.triangle(detail.part_b);
+    let closing = -(b_in_a.rotation * triangle.normal).dot(approach);
+    let margin = base + LOOK_AHEAD * (closing.max(0.0) + 0.1 * approach.length());
+    collide_triangle::<L>(part, &triangle, &b_in_a, (&mut detail.memory, scratch), margin)
+}
+
 #[inline(always)]
 fn collide_parts<L: Lanes>(
     scene: Scene<'_>,
@@ -154,10 +194,7 @@ fn collide_parts<L: Lanes>(
     detail: &mut Detail,
     scratch: &mut Scratch,
 ) -> Manifold {
-    let to_a = a.axes.transpose();
-    let b_in_a = Placement { rotation: to_a * b.axes, translation: to_a * (b.center - a.center) };
-    let approach = to_a * (a.motion - b.motion);
-    let base = scene.margin + 0.5 * (a.turning + b.turning);
+    let (b_in_a, approach, base) = relative(scene, a, b);
     let axis = detail.memory.axis;
     let is_new = axis == Vec3::ZERO;
     if is_new {

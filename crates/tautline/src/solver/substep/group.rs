@@ -17,7 +17,6 @@ use super::rolling::Rolling;
 /// Pairs that are solved one batch after the other.
 #[derive(Debug, Clone)]
 pub(super) struct Group {
-    pub(super) region: Region,
     /// The places whose velocities it reads and changes.
     pub(super) range: Range<usize>,
     pub(super) active: Vec<Active>,
@@ -44,7 +43,6 @@ pub(super) struct Groups {
 impl Group {
     fn new(region: Region, lineup: &Lineup) -> Self {
         Self {
-            region,
             range: lineup.range(region),
             active: Vec::new(),
             batches: Vec::new(),

@@ -124,7 +124,8 @@ impl Lineup {
         let mut end = 0;
         let stripes_follow = self.stripes.iter().all(|stripe| {
             let Stripe { places, driven } = stripe;
-            let follows = places.start == end && places.end as usize % LANES == 0 && places.start < places.end;
+            let follows =
+                places.start == end && places.end as usize % LANES == 0 && places.start < places.end;
             end = places.end;
             follows && *driven >= places.start && driven.saturating_add(self.driven_count) < places.end
         });

@@ -6,7 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::held::{Held, MOST_POINTS};
-use crate::body::{Body, Touch};
+use crate::body::{Body, Substance, Touch};
 use crate::geometry::manifold::Memory;
 
 /// What is looked at in every step.
@@ -86,7 +86,12 @@ impl Pairs {
         let is_sound = |(pair, detail): (&Pair, &Detail)| {
             let exist = (pair.a.max(pair.b) as usize) < bodies.len();
             let is_held = detail.held.as_ref().is_some_and(|held| held.is_sound());
-            exist && pair.points as usize <= MOST_POINTS && (pair.points == 0 || is_held) && detail.touch.is_sound()
+            exist
+                && has_part(&bodies[pair.a as usize], detail.part_a)
+                && has_part(&bodies[pair.b as usize], detail.part_b)
+                && pair.points as usize <= MOST_POINTS
+                && (pair.points == 0 || is_held)
+                && detail.touch.is_sound()
         };
         self.pairs.len() == self.details.len()
             && self.pairs.iter().zip(&self.details).all(is_sound)
@@ -108,5 +113,17 @@ impl Pairs {
             self.pairs.iter().map(|pair| pair.a != body && pair.b != body).collect::<Vec<_>>().into_iter();
         self.details.retain(|_| keep.next() == Some(true));
         self.pairs.retain(|pair| pair.a != body && pair.b != body);
+    }
+}
+
+/// Whether a body has a part, or a triangle, of this number.
+fn has_part(body: &Body, part: u32) -> bool {
+    match &body.substance {
+        Substance::Rigid(rigid) => match rigid.shape.surface() {
+            Some(surface) => (part as usize) < surface.mesh().triangles.len(),
+            None => (part as usize) < rigid.shape.parts().len(),
+        },
+        Substance::HalfSpace(_) => part == 0,
+        Substance::Truss { .. } | Substance::Deformable(_) => false,
     }
 }

@@ -14,9 +14,10 @@ use super::block::Block;
 /// How often u is improved; each gains a factor of about |ω h|.
 const ITERATIONS: usize = 3;
 
-/// Moves eight bodies by a substep of `h` (s) and returns their rows after it, damped.
+/// Moves eight bodies by a substep of `h` (s) and returns their rows after it, damped by their own rates and that of
+/// the world (1/s).
 #[inline(always)]
-pub(super) fn advance<L: Lanes>(block: &mut Block, columns: &[L; LANES], h: f32) -> [L; LANES] {
+pub(super) fn advance<L: Lanes>(block: &mut Block, columns: &[L; LANES], h: f32, damping: f32) -> [L; LANES] {
     let motion = block.motion(columns);
     let shift = Vec3x8::load(&block.shift) + motion.linear;
     shift.store(&mut block.shift);
@@ -34,8 +35,8 @@ pub(super) fn advance<L: Lanes>(block: &mut Block, columns: &[L; LANES], h: f32)
     turn.applied_to(axes).store(&mut block.axes);
 
     let [x, y, z, mass, p, q, r, response] = *columns;
-    let linear = Vec3x8::new(x, y, z) * kept(&block.constants.damping[0], h);
-    let angular = (Vec3x8::new(p, q, r) + change) * kept(&block.constants.damping[1], h);
+    let linear = Vec3x8::new(x, y, z) * kept(&block.constants.damping[0], h, damping);
+    let angular = (Vec3x8::new(p, q, r) + change) * kept(&block.constants.damping[1], h, damping);
     [linear.x, linear.y, linear.z, mass, angular.x, angular.y, angular.z, response]
 }
 
@@ -54,10 +55,10 @@ pub(super) fn unit<L: Lanes>(v: Vec3x8<L>) -> Vec3x8<L> {
     v * (L::splat(1.5) - v.length_squared() * L::splat(0.5))
 }
 
-/// What a substep of `h` (s) leaves of a motion that dies out at this rate (1/s).
+/// What a substep of `h` (s) leaves of a motion that dies out at these two rates (1/s) together.
 #[inline(always)]
-fn kept<L: Lanes>(rate: &Row, h: f32) -> L {
-    L::splat(1.0) / (L::splat(1.0) + L::load(rate) * L::splat(h))
+fn kept<L: Lanes>(rate: &Row, h: f32, damping: f32) -> L {
+    L::splat(1.0) / (L::splat(1.0) + (L::load(rate) + L::splat(damping)) * L::splat(h))
 }
 
 /// Of the quaternion with this imaginary part. Half a turn in a substep is as far as the equation goes; what spins

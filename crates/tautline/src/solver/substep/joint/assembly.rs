@@ -114,7 +114,8 @@ impl Work {
             Placed { shift, ..frame.on_body(mover.center, axes) }
         };
         let on_base = &self.joint.on_base;
-        let base = self.base.map_or_else(|| on_base.in_world(), |base| place(on_base, &movers[base as usize]));
+        let base =
+            self.base.map_or_else(|| on_base.in_world(), |base| place(on_base, &movers[base as usize]));
         [base, place(&self.joint.on_body, &movers[self.body as usize])]
     }
 
@@ -157,7 +158,11 @@ impl Work {
         for k in 0..linear + angular {
             let compliance = if k < linear { strength.compliance } else { strength.angular_compliance };
             let error = self.now[k];
-            let rest = if compliance > 0.0 { 0.0 } else { error - (error * RECOVERY).clamp(-pace.limit, pace.limit) };
+            let rest = if compliance > 0.0 {
+                0.0
+            } else {
+                error - (error * RECOVERY).clamp(-pace.limit, pace.limit)
+            };
             (self.is_held[k], self.goal[k], self.softness[k]) = (true, rest, compliance / (h * h));
         }
         for (i, stop) in self.joint.kind.stops().iter().enumerate() {
@@ -315,7 +320,8 @@ impl Assembly {
             }
             for (side, block) in sides.iter().zip(blocks) {
                 if let Some((index, is_transposed)) = *side {
-                    self.matrix.lower[index as usize] = if is_transposed { transposed(&block) } else { block };
+                    self.matrix.lower[index as usize] =
+                        if is_transposed { transposed(&block) } else { block };
                 }
             }
         }

@@ -71,7 +71,13 @@ pub(super) fn fixed_multiplier(stop: &Stop, mode: Mode, pace: &Pace) -> Option<f
 }
 
 /// What the row does next, seeing that it is `now` and will be `ahead` with this multiplier.
-pub(super) fn next_mode(stop: &Stop, mode: Mode, [now, ahead]: [f32; 2], multiplier: f32, pace: &Pace) -> Mode {
+pub(super) fn next_mode(
+    stop: &Stop,
+    mode: Mode,
+    [now, ahead]: [f32; 2],
+    multiplier: f32,
+    pace: &Pace,
+) -> Mode {
     if stop.low >= stop.high {
         return Mode::AtLow;
     }
