@@ -7,7 +7,6 @@
 //! Rigid bodies of four particles are moved in substeps with soft contacts and exact joints. Particles held by sticks
 //! are moved by Verlet's integrator, and whatever is wrong then, a penetration or a stick of the wrong length, is
 //! mended by moving particles. The two do not touch each other yet: with cloth and rope use trusses.
-//! Nor does anything collide yet with [`Shape::triangle_mesh`] and [`Shape::height_field`]; queries find them.
 //!
 //! ```
 //! use std::sync::Arc;

@@ -32,8 +32,8 @@ pub struct Settings {
     pub separation_speed: Option<f32>,
     /// How the sticks are relaxed.
     pub relaxation: Relaxation,
-    /// Rate at which free motion dies out, in 1/s: v' = v/(1 + damping·h). 0 = none. Of particles held by
-    /// sticks; a rigid body of four particles has its own, [`RigidBody::damping`](crate::RigidBody::damping).
+    /// Rate at which free motion dies out, in 1/s: v' = v/(1 + damping·h). 0 = none. To it is added
+    /// what a rigid body of four particles has of its own, [`RigidBody::damping`](crate::RigidBody::damping).
     pub damping: f32,
     /// How pairs of trusses, cloth and rope that may touch are found.
     pub broad_phase: BroadPhase,
