@@ -1,9 +1,34 @@
 //! Rigid bodies, cloth and rope in one world, deterministic to the bit.
 //!
-//! Everything is a particle. A rigid body is a truss of particles held by sticks, a cloth a sheet of them, a rope
-//! a line; Verlet's integrator moves them, GJK and sphere trees find where they touch, and whatever is wrong then,
-//! a penetration or a stick of the wrong length, is mended by moving particles. Nothing stores an orientation, a
-//! torque or an inertia tensor.
+//! Everything that moves is made of particles. A [`RigidBody`] is four of them, placed so that its mass, centre and
+//! inertia are exact; pose, velocity and angular velocity are read from them. A [`Cloth`] is a sheet of particles, a
+//! [`Rope`] a line, and a [`TrussBody`] a rigid body of particles held by sticks.
+//!
+//! Rigid bodies of four particles are moved in substeps with soft contacts and exact joints. Particles held by sticks
+//! are moved by Verlet's integrator, and whatever is wrong then, a penetration or a stick of the wrong length, is
+//! mended by moving particles. The two do not touch each other yet: with cloth and rope use trusses.
+//!
+//! ```
+//! use std::sync::Arc;
+//! use tautline::{HalfSpace, QueryFilter, RigidBody, Settings, Shape, Vec3, World};
+//!
+//! let mut world = World::new(Settings::default())?;
+//! world.add(HalfSpace::floor(0.0))?;
+//! let shape = Arc::new(Shape::cuboid(Vec3::splat(0.5))?);
+//! let lower = world.add(RigidBody::new(&shape).mass(2.0).position(Vec3::Y * 0.5))?;
+//! let upper = world.add(RigidBody::new(&shape).mass(2.0).position(Vec3::new(0.2, 1.6, 0.0)))?;
+//! for _ in 0..120 {
+//!     let report = world.step(1.0 / 60.0)?;
+//!     assert!(report.faults.is_empty());
+//! }
+//! let (position, _) = world.body(upper)?.pose().expect("it is rigid");
+//! assert!((position.y - 1.5).abs() < 0.01, "it rests on the other");
+//! let hit = world.ray_cast(Vec3::new(0.0, 0.5, 5.0), Vec3::NEG_Z, 10.0, QueryFilter::default())?;
+//! assert_eq!(hit.map(|hit| hit.body), Some(lower));
+//! # Ok::<(), tautline::Error>(())
+//! ```
+//!
+//! A cloth over a truss:
 //!
 //! ```
 //! use std::sync::Arc;
@@ -16,8 +41,7 @@
 //! world.add(TrussBody::new(&cube).position(Vec3::Y * 0.5).fixed())?;
 //! let cloth = world.add(Cloth::grid(12, 12, 2.0, 2.0).position(Vec3::Y * 1.2))?;
 //! for _ in 0..60 {
-//!     let report = world.step(1.0 / 60.0)?;
-//!     assert!(report.faults.is_empty());
+//!     world.step(1.0 / 60.0)?;
 //! }
 //! let middle = world.body(cloth)?.center_of_mass();
 //! assert!(middle.y > 0.5 && middle.y < 1.2, "it lies on the cube and hangs down its sides");
@@ -34,13 +58,16 @@
 //!
 //! Data flows one way:
 //!
-//! 1. A [`TriMesh`](mesh::TriMesh), from [`mesh::primitives`] or your own triangles, becomes a shape:
-//!    [`Truss::from_mesh`]. Many bodies share one.
-//! 2. A builder ([`TrussBody`], [`Cloth`], [`Rope`], [`HalfSpace`]) says where a body starts and what it is made
-//!    of. [`World::add`] checks it and gives a [`BodyHandle`].
-//! 3. [`World::step`] moves everything: in each substep it integrates, finds the pairs whose boxes overlap, finds
-//!    where those touch, separates them, and relaxes the sticks. A [`StepReport`] says what that took.
-//! 4. [`World::body`] shows a body as it is now: positions to draw, a pose, velocities. [`World::strain`],
+//! 1. A [`Shape`] is made from numbers, points or a [`TriMesh`](mesh::TriMesh), which comes from [`mesh::primitives`]
+//!    or is your own. For a truss [`Truss::from_mesh`] takes the mesh. Many bodies share one.
+//! 2. A builder ([`RigidBody`], [`TrussBody`], [`Cloth`], [`Rope`], [`HalfSpace`]) says where a body starts and what it
+//!    is made of. [`World::add`] checks it and gives a [`BodyHandle`]. [`World::add_joint`] connects rigid bodies.
+//! 3. [`World::step`] moves everything. For rigid bodies it finds contacts once, and solves joints and contacts in each
+//!    substep; for particles held by sticks it integrates, finds what touches, separates and relaxes in each substep.
+//!    A [`StepReport`] says what that took. In between, forces, impulses, poses and velocities can be set, and a body
+//!    picked up: [`World::apply_force`], [`World::set_pose`], [`World::grab`].
+//! 4. [`World::body`] shows a body as it is now: a surface to draw, a pose, velocities. [`World::ray_cast`],
+//!    [`World::shape_cast`], [`World::overlap`] and [`World::closest_point`] tell what is where. [`World::strain`],
 //!    [`World::penetration`] and the energies measure the whole.
 //! 5. [`World::snapshot`] turns everything into bytes, [`World::restore`] turns them back.
 //!
@@ -51,7 +78,7 @@
 //! # What is promised
 //!
 //! - **The same bits.** The same calls in the same order give the same [`World::state_hash`] on every platform,
-//!   with and without optimisation, on any number of threads.
+//!   with and without optimisation, on any number of threads and with any [`Instructions`].
 //! - **No panic.** What is wrong with a call is an [`Error`] that names the field, and the world is as it was
 //!   before. A particle that turns non-finite freezes its body, and the step's report says so.
 //! - **No surprises.** The engine reads no clock and no files, draws no random numbers and prints nothing.

@@ -8,30 +8,38 @@ use crate::simd::Instructions;
 
 /// How a world is simulated.
 ///
-/// [`Settings::paper`] is the reference: one substep, ten sweeps, a tolerance of 1 %, one feature per pair.
-/// [`Settings::default`] is the same method in eight substeps of two sweeps without tolerance, with four features
-/// per pair: it holds a tower of ten cubes still, and keeps cloth short.
+/// Substeps serve two solvers. Rigid bodies of four particles ([`RigidBody`](crate::RigidBody)) are moved by one of
+/// their own, which finds contacts once a step and solves them in every substep. Particles held by sticks, those of
+/// cloth, rope and trusses, are moved by the paper's method, all of it in every substep.
+///
+/// [`Settings::default`] has eight substeps for both, and for sticks two sweeps without tolerance and four features per
+/// pair: it holds a tower of ten trusses still, and keeps cloth short. [`Settings::paper`] is the reference for
+/// particles held by sticks: one substep, ten sweeps, a tolerance of 1 %, one feature per pair.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
-    /// Acceleration of every free particle, in m/s².
+    /// Acceleration of everything that is free to move, in m/s²; a rigid body's
+    /// [`gravity_scale`](crate::RigidBody::gravity_scale) is a factor to it.
     pub gravity: Vec3,
-    /// Substeps in a step, 1 to 1000: each integrates, detects, separates and relaxes.
+    /// Substeps in a step, 1 to 1000: each moves rigid bodies and solves their joints and contacts; and it integrates,
+    /// detects, separates and relaxes particles held by sticks.
     pub substeps: u32,
-    /// How many features a pair of touching rigid bodies is separated at in a substep, one after another,
-    /// each the deepest then, 1 to 16. The paper's method is 1; a cube rests on a cube at 4.
+    /// How many features a pair of touching trusses is separated at in a substep, one after another, each the deepest
+    /// then, 1 to 16. The paper's method is 1; a cube rests on a cube at 4.
     pub features_per_pair: u32,
     /// The greatest speed at which bodies that have overlapped for longer than a substep are moved apart, in m/s;
-    /// `None` = at once, which Verlet's integrator turns into a velocity of depth over substep.
+    /// `None` = at once, which Verlet's integrator turns into a velocity of depth over substep, and for rigid bodies of
+    /// four particles as fast as their soft contacts do.
     pub separation_speed: Option<f32>,
     /// How the sticks are relaxed.
     pub relaxation: Relaxation,
-    /// Rate at which free motion dies out, in 1/s: v' = v/(1 + damping·h). 0 = none.
+    /// Rate at which free motion dies out, in 1/s: v' = v/(1 + damping·h). 0 = none. To it is added
+    /// what a rigid body of four particles has of its own, [`RigidBody::damping`](crate::RigidBody::damping).
     pub damping: f32,
-    /// How pairs of bodies that may touch are found.
+    /// How pairs of trusses, cloth and rope that may touch are found.
     pub broad_phase: BroadPhase,
-    /// When resting bodies are put to sleep; `None` = never.
+    /// When resting trusses, cloth and rope are put to sleep; `None` = never.
     pub sleep: Option<Sleep>,
-    /// Which instructions the solver of rigid bodies uses. The result is the same.
+    /// Which instructions the solver of rigid bodies of four particles uses. The result is the same.
     pub instructions: Instructions,
 }
 
@@ -42,13 +50,13 @@ pub struct Relaxation {
     pub sweeps: u32,
     /// A stick is relaxed only if its length is off by more than this share of its rest length, 0 to 0.5.
     pub tolerance: f32,
-    /// In which order a collided rigid body's sticks are relaxed.
+    /// In which order a collided truss's sticks are relaxed.
     pub ordering: Ordering,
     /// How a stick's length is found.
     pub square_root: SquareRoot,
 }
 
-/// In which order the sticks of a collided rigid body are relaxed.
+/// In which order the sticks of a collided truss are relaxed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Ordering {
     /// By graph distance from the particle that separation moved furthest, near ones repeated (paper, 6.2).
@@ -66,7 +74,7 @@ pub enum SquareRoot {
     FirstOrder,
 }
 
-/// How pairs of bodies that may touch are found. The result is the same.
+/// How pairs of trusses, cloth and rope that may touch are found. The result is the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum BroadPhase {
     /// Boxes sorted along the axis they spread most on, and swept.
@@ -85,7 +93,8 @@ pub struct Sleep {
 }
 
 impl Settings {
-    /// The paper's own: one substep a step, ten sweeps, 1 % tolerance, ordered lists.
+    /// The paper's own: one substep a step, ten sweeps, 1 % tolerance, ordered lists. It is meant for trusses, cloth
+    /// and rope; one substep is too few for stacks of rigid bodies of four particles.
     pub fn paper() -> Self {
         Self {
             gravity: Vec3::new(0.0, -9.81, 0.0),

@@ -100,7 +100,6 @@ pub(crate) struct Traits {
     /// In 1/s.
     pub(crate) angular_damping: f32,
     pub(crate) groups: CollisionGroups,
-    pub(crate) reports_contacts: bool,
     pub(crate) can_sleep: bool,
 }
 
@@ -113,7 +112,6 @@ impl RigidBody {
             linear_damping: 0.0,
             angular_damping: 0.0,
             groups: CollisionGroups::default(),
-            reports_contacts: false,
             can_sleep: true,
         };
         Self {
@@ -216,12 +214,6 @@ impl RigidBody {
     /// Which bodies it collides with.
     pub fn groups(mut self, groups: CollisionGroups) -> Self {
         self.traits.groups = groups;
-        self
-    }
-
-    /// Its contacts are told by [`World::contact_events`](crate::World::contact_events).
-    pub fn report_contacts(mut self) -> Self {
-        self.traits.reports_contacts = true;
         self
     }
 

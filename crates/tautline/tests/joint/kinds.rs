@@ -81,7 +81,7 @@ fn a_motor_accelerates_by_its_torque_and_stops_at_its_speed() {
         run(&mut world, 1);
         let speed = f64::from(world.body(rod).unwrap().angular_velocity().z);
         // The velocity is that of the middle of the last substep; the first substep already has all of its push.
-        let expected = (2.0 / f64::from(inertia) * f64::from(DT) * f64::from(step)).min(3.0);
+        let expected = (2.0 / inertia * f64::from(DT) * f64::from(step)).min(3.0);
         assert!((speed - expected).abs() < 2e-3 * expected + 2.0 * h * 0.2, "{speed} {expected}");
     }
     assert!((world.body(rod).unwrap().angular_velocity().z - 3.0).abs() < 1e-4);

@@ -29,11 +29,12 @@ fn swing(joint: impl Fn(BodyHandle) -> JointDescription, degrees: f32) -> (f64, 
     let rod = world.add(rod).unwrap();
     world.add_joint(joint(rod)).unwrap();
     let (mut crossings, mut peak) = (Vec::new(), 0.0f64);
-    let [mut before, mut last, mut now] = [f64::from(angle); 3];
+    let [mut last, mut now] = [f64::from(angle); 2];
     while crossings.len() < 21 {
         world.step(DT).unwrap();
         let c = center(&world, rod).as_dvec3();
-        (before, last, now) = (last, now, c.x.atan2(-c.y));
+        let before = last;
+        (last, now) = (now, c.x.atan2(-c.y));
         if last < 0.0 && now >= 0.0 {
             crossings.push(world.time() - f64::from(DT) * now / (now - last));
         }

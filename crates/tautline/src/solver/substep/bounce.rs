@@ -69,9 +69,8 @@ impl Bounce {
                 [met.and(L::load(&rows.tangent_impulses[0])), met.and(L::load(&rows.tangent_impulses[1]))];
             push_apart(header, rows, [-normal, -tangents[0], -tangents[1]], &mut sum_a, &mut sum_b);
             (L::load(&rows.normal_impulse) - normal).store(&mut rows.normal_impulse);
-            for axis in 0..2 {
-                (L::load(&rows.tangent_impulses[axis]) - tangents[axis])
-                    .store(&mut rows.tangent_impulses[axis]);
+            for (row, tangent) in rows.tangent_impulses.iter_mut().zip(tangents) {
+                (L::load(row) - tangent).store(row);
             }
 
             let speed = opening(header, rows, &a, &b);

@@ -201,9 +201,9 @@ fn solve<L: Lanes>(
     friction[1].store(&mut rows.tangent_impulses[1]);
     if pass == Pass::Relaxing {
         // The anchors of what slides follow it at once, or it would be pulled back when it stops.
-        for axis in 0..2 {
-            (L::load(&rows.slid[axis]) + over.and(drift[axis])).store(&mut rows.slid[axis]);
-            over.select(zero, drift[axis]).store(&mut rows.drift[axis]);
+        for (drift, (slid, row)) in drift.into_iter().zip(rows.slid.iter_mut().zip(&mut rows.drift)) {
+            (L::load(slid) + over.and(drift)).store(slid);
+            over.select(zero, drift).store(row);
         }
     }
 

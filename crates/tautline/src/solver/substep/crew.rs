@@ -231,7 +231,7 @@ fn set_lane(rows: &mut Rows3, lane: usize, value: Vec3) {
     }
 }
 
-fn rigid_at<'a>(place: u32, bodies: &'a [Body]) -> Option<(&'a Body, &'a Rigid)> {
+fn rigid_at(place: u32, bodies: &[Body]) -> Option<(&Body, &Rigid)> {
     let body = bodies.get(place as usize)?;
     match &body.substance {
         Substance::Rigid(rigid) => Some((body, rigid)),

@@ -124,15 +124,16 @@ impl Lineup {
         let mut end = 0;
         let stripes_follow = self.stripes.iter().all(|stripe| {
             let Stripe { places, driven } = stripe;
-            let follows =
-                places.start == end && places.end as usize % LANES == 0 && places.start < places.end;
+            let follows = places.start == end
+                && (places.end as usize).is_multiple_of(LANES)
+                && places.start < places.end;
             end = places.end;
             follows && *driven >= places.start && driven.saturating_add(self.driven_count) < places.end
         });
         let is_place = |(body, &place): (usize, &u32)| {
             place == NOBODY || self.places.get(place as usize).is_some_and(|&other| other as usize == body)
         };
-        count % LANES == 0
+        count.is_multiple_of(LANES)
             && (count == 0 || !self.stripes.is_empty() && self.places[count - 1] == NOBODY)
             && stripes_follow
             && end as usize == self.solved

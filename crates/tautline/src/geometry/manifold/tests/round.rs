@@ -40,7 +40,7 @@ fn a_ball_finds_the_face_edge_and_corner_of_a_box() {
         let nearest = center.clamp(Vec3::NEG_ONE, Vec3::ONE);
         let offset = center - nearest;
         let distance = offset.length();
-        if distance < 1e-2 || distance > 0.6 {
+        if !(1e-2..=0.6).contains(&distance) {
             continue;
         }
         let manifold = collide_new(&cube, &ball, &placed(random.rotation(), center), 0.2);
