@@ -83,7 +83,7 @@ macro_rules! common {
             }
 
             /// By how much it gives way to a force, in m/N; 0 = as little as a substep allows. What is soft this way
-            /// is also damped: it does not ring.
+            /// loses its swing slowly, the more so the stiffer it is.
             pub fn compliance(mut self, compliance: f32) -> Self {
                 self.link.strength.compliance = compliance;
                 self
@@ -264,7 +264,10 @@ fn anchors(anchors: &Anchors, body: &Side, base: &Side) -> Result<[Vec3; 2], Err
 fn basis(axis: Vec3) -> Result<Mat3, Error> {
     let scaled = axis / axis.abs().max_element();
     let Some(axis) = scaled.try_normalize() else {
-        return Err(Error::Invalid { field: "axis".into(), problem: "is zero; any length but that will do".into() });
+        return Err(Error::Invalid {
+            field: "axis".into(),
+            problem: "is zero; any length but that will do".into(),
+        });
     };
     let second = axis.any_orthonormal_vector();
     Ok(Mat3::from_cols(axis, second, axis.cross(second)))

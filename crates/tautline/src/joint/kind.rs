@@ -33,12 +33,19 @@ pub(crate) struct Drive {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Kind {
     /// How far its axis may lean, and how far the body may turn about it, in rad.
-    Ball { cone: Option<f32>, twist: Option<[f32; 2]> },
+    Ball {
+        cone: Option<f32>,
+        twist: Option<[f32; 2]>,
+    },
     Hinge(Drive),
     Fixed,
     Slider(Drive),
     /// Lengths, in m.
-    Distance { length: f32, limits: Option<[f32; 2]>, spring: Option<Spring> },
+    Distance {
+        length: f32,
+        limits: Option<[f32; 2]>,
+        spring: Option<Spring>,
+    },
 }
 
 /// What a row with bounds is about.
@@ -78,7 +85,9 @@ impl Kind {
         };
         let between = |[low, high]: [f32; 2]| Stop { low, high, push: None };
         match *self {
-            Self::Ball { cone, twist } => [cone.map(|most| between([-f32::INFINITY, most])), twist.map(between)],
+            Self::Ball { cone, twist } => {
+                [cone.map(|most| between([-f32::INFINITY, most])), twist.map(between)]
+            }
             Self::Hinge(drive) | Self::Slider(drive) => [along(&drive), None],
             Self::Fixed => [None; MOST_STOPS],
             Self::Distance { length, limits, spring } => {

@@ -58,7 +58,9 @@ impl Joints {
         for index in (0..self.items.len()).rev() {
             let joint = &self.items[index];
             if joint.body == body || joint.base == Some(body) {
-                let_go.extend([Some(joint.body), joint.base].into_iter().flatten().filter(|&other| other != body));
+                let_go.extend(
+                    [Some(joint.body), joint.base].into_iter().flatten().filter(|&other| other != body),
+                );
                 self.remove(index);
             }
         }

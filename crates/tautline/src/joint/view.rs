@@ -120,10 +120,11 @@ impl JointView<'_> {
             let range = self.world.bodies[body as usize].particles.clone();
             Frame::of_particles(&self.world.particles.position[range])
         };
-        let base = self.joint.base.map(frame).map_or_else(
-            || on_base.in_world(),
-            |frame| on_base.on_body(frame.center, frame.axes),
-        );
+        let base = self
+            .joint
+            .base
+            .map(frame)
+            .map_or_else(|| on_base.in_world(), |frame| on_base.on_body(frame.center, frame.axes));
         let frame = frame(self.joint.body);
         [base, on_body.on_body(frame.center, frame.axes)]
     }

@@ -24,15 +24,17 @@ fn swing(joint: impl Fn(BodyHandle) -> JointDescription, degrees: f32) -> (f64, 
     let mut world = World::new(sleepless()).unwrap();
     let angle = degrees.to_radians();
     let rotation = Quat::from_rotation_z(angle);
-    let rod = RigidBody::new(&cuboid(0.05, 0.5, 0.05)).position(rotation * (Vec3::NEG_Y * 0.5)).rotation(rotation);
+    let rod =
+        RigidBody::new(&cuboid(0.05, 0.5, 0.05)).position(rotation * (Vec3::NEG_Y * 0.5)).rotation(rotation);
     let rod = world.add(rod).unwrap();
     world.add_joint(joint(rod)).unwrap();
     let (mut crossings, mut peak) = (Vec::new(), 0.0f64);
-    let [mut before, mut last, mut now] = [f64::from(angle); 3];
+    let [mut last, mut now] = [f64::from(angle); 2];
     while crossings.len() < 21 {
         world.step(DT).unwrap();
         let c = center(&world, rod).as_dvec3();
-        (before, last, now) = (last, now, c.x.atan2(-c.y));
+        let before = last;
+        (last, now) = (now, c.x.atan2(-c.y));
         if last < 0.0 && now >= 0.0 {
             crossings.push(world.time() - f64::from(DT) * now / (now - last));
         }
@@ -69,7 +71,8 @@ fn energy(world: &World, rods: &[BodyHandle], inertia_per_mass: Vec3) -> f64 {
         let spin = rotation.conjugate() * view.angular_velocity();
         let speed_squared = f64::from(view.velocity().length_squared());
         let spin_energy = f64::from((spin * spin).dot(inertia_per_mass));
-        f64::from(view.mass()) * (0.5 * speed_squared + 0.5 * spin_energy + G * f64::from(view.center_of_mass().y))
+        f64::from(view.mass())
+            * (0.5 * speed_squared + 0.5 * spin_energy + G * f64::from(view.center_of_mass().y))
     };
     rods.iter().map(of).sum()
 }
@@ -157,7 +160,10 @@ fn a_chain_holds_a_thousand_times_the_mass_of_a_link() {
             world.add_joint(BallJoint::new(rod, base).anchor(along * (0.1 * k as f32))).unwrap();
             base = Some(rod);
         }
-        let weight = RigidBody::new(&cuboid(0.2, 0.2, 0.2)).mass(100.0).rotation(Quat::from_rotation_z(tilt)).position(along * 3.25);
+        let weight = RigidBody::new(&cuboid(0.2, 0.2, 0.2))
+            .mass(100.0)
+            .rotation(Quat::from_rotation_z(tilt))
+            .position(along * 3.25);
         let weight = world.add(weight).unwrap();
         world.add_joint(BallJoint::new(weight, base).anchor(along * 3.0)).unwrap();
         let (mut worst, mut force) = (0.0f32, Vec3::ZERO);

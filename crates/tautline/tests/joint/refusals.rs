@@ -1,8 +1,8 @@
 //! Bad input is refused by the name of the field, and nothing has changed.
 
 use tautline::{
-    BallJoint, BodyHandle, Cloth, DistanceJoint, Error, FixedJoint, HalfSpace, HingeJoint, JointDescription, Motor,
-    RigidBody, SliderJoint, Vec3, World,
+    BallJoint, BodyHandle, Cloth, DistanceJoint, Error, FixedJoint, HalfSpace, HingeJoint, JointDescription,
+    Motor, RigidBody, SliderJoint, Vec3, World,
 };
 
 use crate::{cuboid, run, sleepless};

@@ -63,7 +63,8 @@ impl Plan {
             let rows = neighbours.iter().enumerate();
             let pairs = rows.flat_map(|(i, &row)| neighbours[..i].iter().map(move |&column| (row, column)));
             let targets = pairs.map(|pair| blocks[&pair]).collect();
-            let neighbours = neighbours.iter().map(|&other| (other as u32, blocks[&(other, *node)])).collect();
+            let neighbours =
+                neighbours.iter().map(|&other| (other as u32, blocks[&(other, *node)])).collect();
             Step { node: *node as u32, neighbours, targets }
         };
         let steps: Vec<Step> = steps.iter().map(step).collect();
@@ -90,7 +91,8 @@ fn order(body_count: usize, joints: &[[Option<u32>; 2]]) -> Vec<(usize, Vec<usiz
     }
     // Joints join the queue with the first of their bodies.
     let mut is_queued: Vec<bool> = (0..count).map(|node| node < body_count).collect();
-    let mut queue: BTreeSet<(usize, usize)> = (0..body_count).map(|body| (adjacent[body].len(), body)).collect();
+    let mut queue: BTreeSet<(usize, usize)> =
+        (0..body_count).map(|body| (adjacent[body].len(), body)).collect();
     let mut order = Vec::with_capacity(count);
     while let Some((_, node)) = queue.pop_first() {
         let neighbours = std::mem::take(&mut adjacent[node]);

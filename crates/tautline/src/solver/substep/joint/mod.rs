@@ -8,6 +8,7 @@ mod elimination;
 mod mover;
 mod rows;
 mod stop;
+mod work;
 
 use std::collections::BTreeMap;
 
@@ -17,9 +18,10 @@ use crate::settings::Settings;
 
 use super::crew::Crew;
 use super::lineup::{Lineup, NOBODY, Region};
-use assembly::{Assembly, Pace, Work};
+use assembly::{Assembly, Pace};
 use elimination::Plan;
 use mover::Mover;
+use work::Work;
 
 /// From so many joints on it pays to solve assemblies side by side.
 const WORTHWHILE: usize = 32;
@@ -36,7 +38,8 @@ impl JointSolver {
     pub(super) fn assemble(&mut self, joints: &Joints, lineup: &Lineup) {
         let place = |body: u32| lineup.place_of.get(body as usize).copied().unwrap_or(NOBODY);
         let is_solved = |body: u32| (place(body) as usize) < lineup.solved;
-        let solved = |joint: &Joint| [joint.base, Some(joint.body)].map(|body| body.filter(|&body| is_solved(body)));
+        let solved =
+            |joint: &Joint| [joint.base, Some(joint.body)].map(|body| body.filter(|&body| is_solved(body)));
         let mut sets = Sets::new(lineup.place_of.len());
         for (_, joint) in joints.holding() {
             if let [Some(base), Some(body)] = solved(joint) {
@@ -111,7 +114,8 @@ fn assembly(
     bodies.dedup();
     let solved = bodies.partition_point(|&body| is_solved(body));
     let rank = |body: u32| (!is_solved(body), body);
-    let number = |body: u32| bodies.binary_search_by_key(&rank(body), |&other| rank(other)).ok().map(|i| i as u32);
+    let number =
+        |body: u32| bodies.binary_search_by_key(&rank(body), |&other| rank(other)).ok().map(|i| i as u32);
     let work = |&(index, joint): &(usize, &Joint)| {
         let base = joint.base.and_then(number);
         Some(Work::new(index, joint, number(joint.body)?, base))
