@@ -1,4 +1,4 @@
-//! rapier3d, as its defaults are: the walls are cuboids, which it is faster with than with half-spaces.
+//! rapier3d, as its defaults are: the walls are cuboids, with which it is faster than with half-spaces.
 
 use glam::{Quat, Vec3};
 use rapier3d::prelude::*;

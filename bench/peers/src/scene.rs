@@ -22,7 +22,7 @@ const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes");
 pub(crate) enum Room {
     /// They end as a pile, many layers deep.
     Dense,
-    /// Twice as wide: they end as one layer on the floor.
+    /// Twice as wide: they end in one to three layers on the floor.
     Wide,
 }
 
@@ -58,7 +58,8 @@ impl Scene {
             Room::Wide => "e1",
         };
         let path = Path::new(FOLDER).join(format!("{prefix}_{n}.txt"));
-        let text = fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+        let text = fs::read_to_string(&path)
+            .map_err(|error| format!("no scene of {n} bodies: {}: {error}", path.display()))?;
         Self::parse(&text).map_err(|problem| format!("{}: {problem}", path.display()).into())
     }
 

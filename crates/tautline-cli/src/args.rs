@@ -27,6 +27,8 @@ pub(crate) enum Command {
     Bench(Bench),
     /// Run the paper's experiments and write tables, charts and a report.
     Reproduce(Reproduce),
+    /// Compare the solver with closed forms. Exit code 1 if a case is off by more than is demanded.
+    Validate(Validate),
 }
 
 #[derive(Debug, Args)]
@@ -89,6 +91,22 @@ pub(crate) struct Reproduce {
     /// Fewer sizes and steps: seconds instead of minutes, to see that everything works.
     #[arg(long)]
     pub(crate) quick: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Validate {
+    /// Numbers of cases, told of in full; all of them if absent.
+    #[arg(value_name = "CASE")]
+    pub(crate) cases: Vec<u32>,
+    /// Write the results.
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) json: Option<PathBuf>,
+    /// Write a chart of the errors, beside those of other engines: .svg or .png.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) chart: Option<PathBuf>,
+    /// Substeps in a step; what the default settings say if absent.
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub(crate) substeps: Option<u32>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -65,6 +65,7 @@ fn text(rows: &[Row]) -> String {
         "narrow",
         "separate",
         "relax",
+        "solve",
         "steps/s",
     ];
     let cells = |row: &Row| {
@@ -76,6 +77,7 @@ fn text(rows: &[Row]) -> String {
             phases.narrow_phase,
             phases.separate,
             phases.relax,
+            phases.solve,
         ];
         let mut cells = vec![row.scene.clone(), row.bodies.to_string(), row.particles.to_string()];
         cells.extend(times.map(|ms| format!("{ms:.4}")));

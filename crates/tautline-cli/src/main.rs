@@ -7,10 +7,12 @@ mod demo;
 mod failure;
 mod list;
 mod output;
+mod picture;
 mod progress;
 mod reproduce;
 mod run;
 mod scene;
+mod validate;
 
 use std::process::ExitCode;
 
@@ -27,6 +29,7 @@ fn main() -> ExitCode {
         Some(Command::Check(check)) => check::check(check),
         Some(Command::Bench(bench)) => bench::bench(bench),
         Some(Command::Reproduce(reproduce)) => reproduce::reproduce(reproduce),
+        Some(Command::Validate(validate)) => validate::validate(validate),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -21,6 +21,7 @@ pub mod recording;
 pub mod registry;
 pub mod render;
 pub mod run;
+pub mod validate;
 
 pub use error::{Error, ParseError, Problem};
 pub use load::load;

@@ -5,9 +5,7 @@ use std::path::Path;
 
 use tautline::mesh::TriMesh;
 
-use crate::document::{
-    Body, Cloth, Format, MeshFile, MeshSource, Rigid, Scene, Shape, Surface, limits, parse,
-};
+use crate::document::{Body, Format, MeshFile, MeshSource, Scene, Shape, Surface, limits, parse};
 use crate::error::{Error, ParseError, Problem};
 use crate::mesh_file;
 
@@ -54,8 +52,9 @@ fn inline_mesh_files(scene: &mut Scene, folder: &Path) -> Vec<Problem> {
     let mut files = BTreeMap::new();
     let mut problems = Vec::new();
     let (mut vertices, mut triangles) = (0, 0);
-    for (i, body) in scene.bodies.iter_mut().enumerate() {
-        let Some((field, file)) = mesh_file_of(body) else { continue };
+    let bodies = scene.bodies.iter_mut().enumerate();
+    for (i, field, place) in bodies.flat_map(|(i, body)| places_in(body).map(move |(f, p)| (i, f, p))) {
+        let Some(file) = place.file() else { continue };
         let read = files
             .entry(file.path.clone())
             .or_insert_with(|| mesh_file::read_inside(folder, &file.path).map_err(|error| error.to_string()));
@@ -64,7 +63,7 @@ fn inline_mesh_files(scene: &mut Scene, folder: &Path) -> Vec<Problem> {
                 vertices += mesh.positions.len() as u64;
                 triangles += mesh.triangles.len() as u64;
                 let mesh = scaled(mesh, file.scale);
-                put_mesh(body, mesh);
+                place.put(mesh);
             }
             Err(message) => {
                 let path = format!("bodies[{i}].{field}.file.path");
@@ -79,20 +78,48 @@ fn inline_mesh_files(scene: &mut Scene, folder: &Path) -> Vec<Problem> {
     problems
 }
 
-/// The mesh file that a body names, and the field it is in.
-fn mesh_file_of(body: &Body) -> Option<(&'static str, &MeshFile)> {
-    match body {
-        Body::Rigid(Rigid { shape: Shape::File(file), .. }) => Some(("rigid.shape", file)),
-        Body::Cloth(Cloth { surface: Surface::File(file), .. }) => Some(("cloth.surface", file)),
-        _ => None,
+/// Where a document can name a mesh file.
+enum Place<'a> {
+    Shape(&'a mut Shape),
+    Surface(&'a mut Surface),
+}
+
+impl Place<'_> {
+    fn file(&self) -> Option<&MeshFile> {
+        match self {
+            Self::Shape(Shape::File(file)) | Self::Surface(Surface::File(file)) => Some(file),
+            Self::Shape(_) | Self::Surface(_) => None,
+        }
+    }
+
+    fn put(self, mesh: MeshSource) {
+        match self {
+            Self::Shape(shape) => *shape = Shape::Mesh(mesh),
+            Self::Surface(surface) => *surface = Surface::Mesh(mesh),
+        }
     }
 }
 
-fn put_mesh(body: &mut Body, mesh: MeshSource) {
+/// The places of a body, and the fields they are.
+fn places_in(body: &mut Body) -> impl Iterator<Item = (String, Place<'_>)> {
+    let mut places = Vec::new();
     match body {
-        Body::Rigid(rigid) => rigid.shape = Shape::Mesh(mesh),
-        Body::Cloth(cloth) => cloth.surface = Surface::Mesh(mesh),
+        Body::Rigid(rigid) => add_places("rigid.shape".to_owned(), &mut rigid.shape, &mut places),
+        Body::Cloth(cloth) => places.push(("cloth.surface".to_owned(), Place::Surface(&mut cloth.surface))),
         Body::Rope(_) | Body::HalfSpace(_) | Body::Room(_) => {}
+    }
+    places.into_iter()
+}
+
+fn add_places<'a>(field: String, shape: &'a mut Shape, places: &mut Vec<(String, Place<'a>)>) {
+    match shape {
+        Shape::Compound { parts } => {
+            for (k, part) in parts.iter_mut().enumerate() {
+                add_places(format!("{field}.compound.parts[{k}].shape"), &mut part.shape, places);
+            }
+        }
+        Shape::Surface(surface) => places.push((format!("{field}.surface"), Place::Surface(surface))),
+        other => places.push((field, Place::Shape(other))),
     }
 }
 

@@ -41,8 +41,8 @@ pub enum Surface {
     Solid,
     /// A sheet: smooth shaded, seen from both sides.
     Sheet,
-    /// A tube: smooth shaded, seen from outside.
-    Tube,
+    /// A tube or a ball: smooth shaded, seen from outside.
+    Round,
     /// A wall of the surroundings: flat shaded, drawn only where it faces the camera, never casting shadows.
     Wall,
 }

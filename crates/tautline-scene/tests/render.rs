@@ -121,7 +121,7 @@ fn degenerate_recordings_make_pictures_too() {
     let huge = recordings::cuboid(Vec3::splat(1e12));
     let tiny = recordings::cuboid(Vec3::splat(1e-12));
     for mesh in [point, line, huge, tiny] {
-        for surface in [Surface::Solid, Surface::Sheet, Surface::Tube, Surface::Wall] {
+        for surface in [Surface::Solid, Surface::Sheet, Surface::Round, Surface::Wall] {
             let image = picture(&still([9, 9, 9], surface, mesh.clone()), small());
             assert_eq!(image.pixels.len(), 160 * 120);
         }

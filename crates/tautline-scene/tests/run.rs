@@ -35,7 +35,7 @@ const ONE_OF_EACH: &str = "name: 'all', record_every: 3, bodies: [{rigid: {posit
 fn every_body_has_a_track_with_a_frame_for_every_third_step_and_the_first() {
     let recording = recording(ONE_OF_EACH, 1.0);
     let surfaces: Vec<Surface> = recording.tracks.iter().map(|track| track.surface).collect();
-    let expected = [Surface::Solid, Surface::Solid, Surface::Sheet, Surface::Tube, Surface::Wall];
+    let expected = [Surface::Solid, Surface::Solid, Surface::Sheet, Surface::Round, Surface::Wall];
     assert_eq!(surfaces, expected);
     assert!((recording.frame_rate - 20.0).abs() < 1e-4 && recording.name == "all");
     assert_eq!(recording.frame_count(), 21);

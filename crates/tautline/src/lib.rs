@@ -76,6 +76,7 @@ mod measure;
 pub mod mesh;
 mod parallel;
 mod particles;
+mod query;
 mod report;
 mod rest;
 mod settings;
@@ -94,13 +95,14 @@ pub use body::{
 pub use error::{Error, MeshDefect};
 pub use glam::{DVec3, Mat3, Quat, Vec3};
 pub use joint::{
-    BallJoint, DistanceJoint, FixedJoint, HingeJoint, JointDescription, JointEvent, JointHandle, JointKind, JointView,
-    Motor, SliderJoint,
+    BallJoint, DistanceJoint, FixedJoint, HingeJoint, JointDescription, JointEvent, JointHandle, JointKind,
+    JointView, Motor, SliderJoint,
 };
 pub use measure::{Penetration, Strain};
+pub use query::{CastHit, PointHit, QueryFilter, RayHit};
 pub use report::{Fault, PhaseSeconds, StepReport};
 pub use settings::{BroadPhase, Ordering, Relaxation, Settings, Sleep, SquareRoot};
 pub use shape::Shape;
 pub use simd::Instructions;
 pub use view::BodyView;
-pub use world::{BodyHandle, World};
+pub use world::{BodyHandle, GrabHandle, Grip, World};

@@ -1,13 +1,13 @@
 //! Measuring a world: energy, momentum, stretch, penetration, and a hash of its state.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
-use crate::body::{Body, Substance, Truss};
-use crate::collision::{Aabb, Candidate, find_pairs};
-use crate::geometry::distance;
-use crate::geometry::epa::Epa;
-use crate::geometry::support::Points;
-use crate::settings::BroadPhase;
+use crate::body::{Body, CollisionGroups, Frame, Motion, Substance};
+use crate::collision::Aabb;
+use crate::collision::bvh::{PairSearch, overlapping_pairs};
+use crate::geometry::query::separation;
+use crate::query::{Piece, solid_piece_count};
+use crate::shape::Convex;
 use crate::world::World;
 
 /// How far off the sticks of a world are.
@@ -19,12 +19,13 @@ pub struct Strain {
     pub mean: f32,
 }
 
-/// How deep bodies are in each other: rigid bodies in rigid bodies, particles in half-spaces.
+/// How deep bodies are in each other: solids in solids, solids and particles in half-spaces. Pairs that cannot collide,
+/// by their groups or because neither is moved by contacts, do not count.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Penetration {
     /// Deepest, in m.
     pub max: f32,
-    /// Mean over the penetrating pairs, in m; a body and a half-space count once, with the deepest particle.
+    /// Mean over the penetrating pairs, in m; each pair counts once, with its deepest place.
     pub mean: f32,
     /// How many pairs penetrate.
     pub count: usize,
@@ -37,12 +38,17 @@ impl World {
         self.bodies.iter().map(|b| store.kinetic_energy(b.particles.clone(), b.displacement_time())).sum()
     }
 
-    /// −Σ m g·x over all particles that can move, in J: 0 at the origin.
+    /// −Σ m g·x over all particles that can move, in J: 0 at the origin. The g of a rigid body is scaled by its
+    /// gravity scale.
     pub fn potential_energy(&self) -> f64 {
-        let gravity = self.settings.gravity.as_dvec3();
-        self.sum(|i, _| {
-            -f64::from(self.particles.mass[i]) * gravity.dot(self.particles.position[i].as_dvec3())
-        })
+        let store = &self.particles;
+        let energy = |body: &Body| -> f64 {
+            let scale = body.rigid().map_or(1.0, |rigid| f64::from(rigid.traits.gravity_scale));
+            let gravity = self.settings.gravity.as_dvec3() * scale;
+            let movable = body.particles.clone().filter(|&i| store.inverse_mass[i] > 0.0);
+            movable.map(|i| -f64::from(store.mass[i]) * gravity.dot(store.position[i].as_dvec3())).sum()
+        };
+        self.bodies.iter().map(energy).sum()
     }
 
     /// Σ m v over all particles that can move, in kg·m/s.
@@ -86,53 +92,57 @@ impl World {
         Strain { max, mean: if count > 0 { (sum / count as f64) as f32 } else { 0.0 } }
     }
 
-    /// How deep bodies are in each other now, measured on every pair of rigid bodies whose boxes overlap.
+    /// How deep bodies are in each other now, measured on every pair of solids whose boxes overlap.
     pub fn penetration(&self) -> Penetration {
         let mut depths = Vec::new();
-        self.rigid_depths(&mut depths);
+        self.solid_depths(&mut depths);
         self.wall_depths(&mut depths);
         depths.retain(|&depth| depth > 0.0);
         let mean = depths.iter().fold(0.0, |sum, depth| sum + depth) / depths.len().max(1) as f32;
         Penetration { max: depths.iter().copied().fold(0.0, f32::max), mean, count: depths.len() }
     }
 
-    fn rigid_depths(&self, depths: &mut Vec<f32>) {
-        let trusses: Vec<(&Body, &Truss)> = self
-            .bodies
-            .iter()
-            .filter_map(|body| match &body.substance {
-                Substance::Truss { truss } => Some((body, &**truss)),
-                Substance::Rigid(_) | Substance::Deformable(_) | Substance::HalfSpace(_) => None,
-            })
-            .collect();
-        let hull = |(body, truss): (&Body, &Truss)| {
-            let start = body.particles.start;
-            &self.particles.position[start..start + truss.surface().vertex_count()]
-        };
-        let candidate = |(index, &truss): (usize, &(&Body, &Truss))| Candidate {
-            body: index as u32,
-            bounds: Aabb::around(hull(truss), 0.0),
-            awake: !truss.0.fixed,
-        };
-        let mut candidates: Vec<Candidate> = trusses.iter().enumerate().map(candidate).collect();
-        let (mut pairs, mut epa) = (Vec::new(), Epa::default());
-        find_pairs(&mut candidates, BroadPhase::SortAndSweep, &mut pairs);
+    fn solid_depths(&self, depths: &mut Vec<f32>) {
+        let bodies = self.bodies.iter().filter(|body| solid_piece_count(body) > 0);
+        let solids: Vec<Solid<'_>> = bodies.map(|body| Solid::of(body, &self.particles.position)).collect();
+        let boxes: Vec<Aabb> = solids.iter().map(|solid| solid.bounds).collect();
+        let movable: Vec<bool> = solids.iter().map(|solid| is_dynamic(solid.body)).collect();
+        let (mut search, mut pairs) = (PairSearch::default(), Vec::new());
+        overlapping_pairs(&boxes, &movable, self.settings.instructions, &mut search, &mut pairs);
         for (a, b) in pairs {
-            let [a, b] = [a, b].map(|index| Points(hull(trusses[index as usize])));
-            let mut unknown_axis = glam::Vec3::ZERO;
-            let found = distance::contact(&a, &b, &mut unknown_axis, &mut epa);
-            depths.extend(found.features.map(|features| features.depth));
+            let (a, b) = (&solids[a as usize], &solids[b as usize]);
+            if groups(a.body).collide_with(groups(b.body)) {
+                depths.push(a.depth_in(b));
+            }
         }
     }
 
     fn wall_depths(&self, depths: &mut Vec<f32>) {
         for wall in &self.bodies {
             let Substance::HalfSpace(wall) = &wall.substance else { continue };
-            for body in self.bodies.iter().filter(|body| !body.fixed) {
-                let positions = &self.particles.position[body.particles.clone()];
-                depths.extend(positions.iter().map(|&x| wall.offset - wall.normal.dot(x)).reduce(f32::max));
+            let collides =
+                |body: &&Body| is_dynamic(body) && groups(body).collide_with(CollisionGroups::default());
+            for body in self.bodies.iter().filter(collides) {
+                let lowest = self.heights(body, wall.normal).reduce(f32::min);
+                depths.extend(lowest.map(|lowest| wall.offset - lowest));
             }
         }
+    }
+
+    /// How high the corners and particles of a body are along a unit normal, in m; of round parts their lowest place.
+    fn heights<'a>(&'a self, body: &'a Body, normal: Vec3) -> impl Iterator<Item = f32> + 'a {
+        let positions = &self.particles.position[body.particles.clone()];
+        let rigid = body.rigid().map(|rigid| (rigid, Frame::of_particles(positions)));
+        let corners = rigid.into_iter().flat_map(move |(rigid, frame)| {
+            let (along, height) = (frame.axes.transpose() * normal, normal.dot(frame.center));
+            let parts = rigid.shape.parts().iter().map(|part| &part.convex);
+            let lowest = move |part: &'a Convex| {
+                part.vertices.iter().map(move |corner| height + along.dot(*corner) - part.radius)
+            };
+            parts.flat_map(lowest)
+        });
+        let particles = if body.is_rigid() { &[] } else { positions };
+        corners.chain(particles.iter().map(move |x| normal.dot(*x)))
     }
 
     /// A hash of everything that moves: positions, displacements, masses and sleep, bit for bit. Equal states
@@ -145,6 +155,47 @@ impl World {
         store.inverse_mass.iter().for_each(|number| hash.write(number.to_bits()));
         self.bodies.iter().for_each(|body| hash.write(u32::from(body.rest.asleep)));
         hash.0
+    }
+}
+
+fn is_dynamic(body: &Body) -> bool {
+    body.rigid().map_or(!body.fixed, |rigid| rigid.traits.motion == Motion::Dynamic)
+}
+
+fn groups(body: &Body) -> CollisionGroups {
+    body.rigid().map_or(CollisionGroups::default(), |rigid| rigid.traits.groups)
+}
+
+/// A body that others can be in.
+struct Solid<'a> {
+    body: &'a Body,
+    pieces: Vec<(Piece<'a>, Aabb)>,
+    bounds: Aabb,
+}
+
+impl<'a> Solid<'a> {
+    fn of(body: &'a Body, positions: &'a [Vec3]) -> Self {
+        let pieces = (0..solid_piece_count(body)).filter_map(|number| Piece::of(body, positions, number));
+        let bounded = |piece: Piece<'a>| {
+            let bounds = piece.bounds();
+            (piece, bounds)
+        };
+        let pieces: Vec<_> = pieces.map(bounded).collect();
+        let corners: Vec<Vec3> = pieces.iter().flat_map(|(_, bounds)| [bounds.low, bounds.high]).collect();
+        Self { body, pieces, bounds: Aabb::around(&corners, 0.0) }
+    }
+
+    /// The depth of the deepest pair of their parts, in m; 0 or less if they do not overlap.
+    fn depth_in(&self, other: &Self) -> f32 {
+        let mut least = f64::INFINITY;
+        for (a, bounds_a) in &self.pieces {
+            for (b, bounds_b) in other.pieces.iter().filter(|(_, bounds)| bounds.overlaps(bounds_a)) {
+                a.convex_sets(bounds_b, |a| {
+                    b.convex_sets(bounds_a, |b| least = least.min(separation(a, b).gap));
+                });
+            }
+        }
+        -least as f32
     }
 }
 

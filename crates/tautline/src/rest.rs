@@ -84,7 +84,8 @@ pub(crate) fn put_to_sleep(
         }
     }
     let restless = |body: &Body| body.is_awake() && body.rest.still_for < sleep.seconds;
-    let mut may_sleep: Vec<bool> = bodies.iter().map(|body| body.is_awake_matter() && !restless(body)).collect();
+    let mut may_sleep: Vec<bool> =
+        bodies.iter().map(|body| body.is_awake_matter() && !restless(body)).collect();
     for contact in contacts {
         let (a, b) = (contact.body_a as usize, contact.body_b as usize);
         may_sleep[a] &= !restless(&bodies[b]);

@@ -1,7 +1,7 @@
 //! A world as bytes, to be restored anywhere.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use serde::{Deserialize, Serialize};
 
@@ -11,14 +11,15 @@ use crate::error::Error;
 use crate::joint::Joints;
 use crate::particles::Particles;
 use crate::settings::Settings;
+use crate::shape::Shape;
 use crate::slots::Slots;
-use crate::solver::substep::RigidSolver;
-use crate::world::{Scratch, World};
+use crate::solver::substep::{Kept, RigidSolver};
+use crate::world::{Grabs, Scratch, World};
 
 const MAGIC: [u8; 8] = *b"tautline";
 const VERSION: u32 = 1;
 
-/// Everything but the trusses, which bodies share: each is stored once, and by its number for each body.
+/// Everything but the trusses and shapes, which bodies share: each is stored once, and by its number for each body.
 #[derive(Serialize, Deserialize)]
 struct Stored {
     settings: Settings,
@@ -26,9 +27,13 @@ struct Stored {
     bodies: Vec<Body>,
     trusses: Vec<Truss>,
     truss_of_body: Vec<Option<u32>>,
+    shapes: Vec<Shape>,
+    shape_of_body: Vec<Option<u32>>,
     slots: Slots,
     pairs: PairCache,
+    grabs: Grabs,
     joints: Joints,
+    rigid: Kept,
     time: f64,
 }
 
@@ -36,16 +41,27 @@ impl World {
     /// The whole world as bytes. A world restored from them goes on exactly as this one does, also on another
     /// platform, and knows the same handles.
     pub fn snapshot(&self) -> Vec<u8> {
-        let (trusses, truss_of_body) = self.shared_trusses();
+        let (trusses, truss_of_body) = self.shared(|substance| match substance {
+            Substance::Truss { truss } => Some(truss),
+            _ => None,
+        });
+        let (shapes, shape_of_body) = self.shared(|substance| match substance {
+            Substance::Rigid(rigid) => Some(&rigid.shape),
+            _ => None,
+        });
         let stored = Stored {
             settings: self.settings.clone(),
             particles: self.particles.clone(),
             bodies: self.bodies.clone(),
             trusses: trusses.into_iter().cloned().collect(),
             truss_of_body,
+            shapes: shapes.into_iter().cloned().collect(),
+            shape_of_body,
             slots: self.slots.clone(),
             pairs: self.pairs.clone(),
+            grabs: self.grabs.clone(),
             joints: self.joints.clone(),
+            rigid: self.rigid.kept(),
             time: self.time,
         };
         let mut bytes = MAGIC.to_vec();
@@ -75,24 +91,22 @@ impl World {
         stored.into_world()
     }
 
-    /// The trusses in use, each once, and the number of each body's.
-    fn shared_trusses(&self) -> (Vec<&Truss>, Vec<Option<u32>>) {
-        let mut trusses: Vec<&Truss> = Vec::new();
-        // By address: bodies share a truss by pointing at it. The numbers follow the order of the bodies.
-        let mut known: BTreeMap<*const Truss, u32> = BTreeMap::new();
-        let mut truss_of_body = Vec::with_capacity(self.bodies.len());
-        for body in &self.bodies {
-            let Substance::Truss { truss } = &body.substance else {
-                truss_of_body.push(None);
-                continue;
-            };
-            let number = *known.entry(Arc::as_ptr(truss)).or_insert_with(|| {
-                trusses.push(truss);
-                trusses.len() as u32 - 1
-            });
-            truss_of_body.push(Some(number));
-        }
-        (trusses, truss_of_body)
+    /// What bodies share, each once, and the number of each body's.
+    fn shared<'a, T>(
+        &'a self,
+        of: impl Fn(&'a Substance) -> Option<&'a Arc<T>>,
+    ) -> (Vec<&'a T>, Vec<Option<u32>>) {
+        let mut shared: Vec<&T> = Vec::new();
+        // By address: bodies share a thing by pointing at it. The numbers follow the order of the bodies.
+        let mut known: BTreeMap<*const T, u32> = BTreeMap::new();
+        let mut number_of = |thing: &'a Arc<T>| {
+            *known.entry(Arc::as_ptr(thing)).or_insert_with(|| {
+                shared.push(thing);
+                shared.len() as u32 - 1
+            })
+        };
+        let numbers = self.bodies.iter().map(|body| of(&body.substance).map(&mut number_of)).collect();
+        (shared, numbers)
     }
 }
 
@@ -102,14 +116,22 @@ impl Stored {
         self.particles.validate()?;
         self.trusses.iter().try_for_each(Truss::validate)?;
         let trusses: Vec<Arc<Truss>> = std::mem::take(&mut self.trusses).into_iter().map(Arc::new).collect();
-        if self.truss_of_body.len() != self.bodies.len() || !self.slots.is_valid(self.bodies.len()) {
+        self.shapes.iter().try_for_each(Shape::validate)?;
+        let shapes: Vec<Arc<Shape>> = std::mem::take(&mut self.shapes).into_iter().map(Arc::new).collect();
+        let counts = [self.truss_of_body.len(), self.shape_of_body.len()];
+        if counts.iter().any(|&count| count != self.bodies.len()) || !self.slots.is_valid(self.bodies.len()) {
             return Err(refuse("its lists of bodies disagree"));
         }
         let mut next = 0;
-        for (body, &truss_index) in self.bodies.iter_mut().zip(&self.truss_of_body) {
+        let indices = self.truss_of_body.iter().zip(&self.shape_of_body);
+        for (body, (&truss_index, &shape_index)) in self.bodies.iter_mut().zip(indices) {
             if let Substance::Truss { truss } = &mut body.substance {
                 let found = truss_index.and_then(|index| trusses.get(index as usize));
                 *truss = Arc::clone(found.ok_or_else(|| refuse("a body's truss is missing"))?);
+            }
+            if let Substance::Rigid(rigid) = &mut body.substance {
+                let found = shape_index.and_then(|index| shapes.get(index as usize));
+                rigid.shape = Arc::clone(found.ok_or_else(|| refuse("a body's shape is missing"))?);
             }
             body.validate(next)?;
             next = body.particles.end;
@@ -117,12 +139,17 @@ impl Stored {
         if next != self.particles.len() || !self.pairs.is_valid(self.bodies.len()) || !self.time.is_finite() {
             return Err(refuse("its particles or pairs disagree with its bodies"));
         }
+        if !self.grabs.is_valid(&self.slots, &self.bodies) {
+            return Err(refuse("it holds what is not there"));
+        }
         if !self.joints.is_valid(self.bodies.len()) {
             return Err(refuse("its joints disagree with its bodies"));
         }
-        let Self { settings, particles, bodies, slots, pairs, joints, time, .. } = self;
-        let rigid = RigidSolver::default();
-        Ok(World { settings, particles, bodies, slots, pairs, joints, rigid, time, scratch: Scratch::default() })
+        let Self { settings, particles, bodies, slots, pairs, grabs, joints, rigid, time, .. } = self;
+        let rigid = RigidSolver::restore(rigid, &bodies, &joints)
+            .ok_or_else(|| refuse("its contacts disagree with its bodies"))?;
+        let (index, scratch) = (OnceLock::new(), Scratch::default());
+        Ok(World { settings, particles, bodies, slots, pairs, joints, rigid, grabs, index, time, scratch })
     }
 }
 

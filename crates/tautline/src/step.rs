@@ -33,18 +33,22 @@ impl World {
     /// As [`World::step`].
     pub fn step_with_clock(&mut self, dt: f32, clock: &mut Clock<'_>) -> Result<StepReport, Error> {
         within("dt", dt, 1e-7, 1.0, "a time from 1e-7 to 1 (s)")?;
+        self.index.take();
         let mut report = StepReport::default();
         let mut watch = Stopwatch::start(clock);
         let h = dt / self.settings.substeps as f32;
         self.begin_rigid(h, &mut report, &mut watch);
         let has_matter = self.bodies.iter().any(Body::is_awake_matter);
+        let lent = self.lend_weight();
         for index in 0..self.settings.substeps {
+            self.pull_grabs(h, (index + 1) as f32 / self.settings.substeps as f32);
             self.rigid.substep(&self.settings, h, index == 0);
             watch.lap(Phase::Solve);
             if has_matter {
                 self.substep(h, &mut report, &mut watch);
             }
         }
+        self.rest_grabs(&lent);
         self.finish_rigid(h, &mut report);
         watch.lap(Phase::Integrate);
         self.rest(dt);

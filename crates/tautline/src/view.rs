@@ -1,11 +1,15 @@
 //! Looking at a body.
 
-use glam::{Quat, Vec3};
+use std::borrow::Cow;
+use std::sync::Arc;
 
-use crate::body::{Body, BodyKind, Frame, Substance, Truss, rigid_motion};
+use glam::{Mat3, Quat, Vec3};
+
+use crate::body::{Body, BodyKind, CollisionGroups, Frame, Motion, Substance, Surface, Truss, rigid_motion};
 use crate::constraint::Stick;
 use crate::error::Error;
 use crate::particles::Particles;
+use crate::shape::Shape;
 use crate::world::{BodyHandle, World};
 
 impl World {
@@ -32,7 +36,7 @@ impl<'a> BodyView<'a> {
         self.body.kind()
     }
 
-    /// Positions of its particles, in m; empty for a half-space.
+    /// Positions of its particles, in m; empty for a half-space. To draw it, see [`BodyView::surface_positions`].
     pub fn positions(&self) -> &'a [Vec3] {
         &self.particles.position[self.body.particles.clone()]
     }
@@ -48,13 +52,27 @@ impl<'a> BodyView<'a> {
         displacements.get(particle as usize).map_or(Vec3::ZERO, |&d| d / self.body.displacement_time())
     }
 
-    /// The triangles of its surface over its particles; empty for ropes and half-spaces.
+    /// The vertices of its surface, in m, whatever it is: those of a rigid body's shape where it is now, for others
+    /// their particles; empty for a half-space.
+    pub fn surface_positions(&self) -> Cow<'a, [Vec3]> {
+        match &self.body.substance {
+            Substance::Rigid(rigid) => {
+                let (position, rotation) = Frame::of_particles(self.positions()).pose(&rigid.shape);
+                let rotation = Mat3::from_quat(rotation);
+                rigid.shape.positions().iter().map(|&point| position + rotation * point).collect()
+            }
+            _ => Cow::Borrowed(self.positions()),
+        }
+    }
+
+    /// The triangles of its surface over its [`BodyView::surface_positions`], counter-clockwise seen from outside;
+    /// empty for ropes and half-spaces.
     pub fn triangles(&self) -> &'a [[u32; 3]] {
         match &self.body.substance {
             Substance::Rigid(rigid) => rigid.shape.triangles(),
             Substance::Truss { truss } => truss.triangles(),
             Substance::Deformable(deformable) => &deformable.triangles,
-            Substance::Rigid(_) | Substance::HalfSpace(_) => &[],
+            Substance::HalfSpace(_) => &[],
         }
     }
 
@@ -67,7 +85,12 @@ impl<'a> BodyView<'a> {
         }
     }
 
-    /// Its shape, if it is rigid.
+    /// Its shape, if it is a rigid body of four particles.
+    pub fn shape(&self) -> Option<&'a Arc<Shape>> {
+        self.body.rigid().map(|rigid| &rigid.shape)
+    }
+
+    /// Its shape, if it is a truss.
     pub fn truss(&self) -> Option<&'a Truss> {
         match &self.body.substance {
             Substance::Truss { truss } => Some(truss),
@@ -83,8 +106,8 @@ impl<'a> BodyView<'a> {
         }
     }
 
-    /// Of a rigid body, the mean of its particles (m) and the rotation that best carries its shape's rest
-    /// positions into its particles.
+    /// Of a rigid body, where the origin of its shape's frame is (m) and the rotation from there to the world. Of a
+    /// truss, the mean of its particles and the rotation that best carries its rest positions into them.
     pub fn pose(&self) -> Option<(Vec3, Quat)> {
         match &self.body.substance {
             Substance::Rigid(rigid) => Some(Frame::of_particles(self.positions()).pose(&rigid.shape)),
@@ -104,6 +127,33 @@ impl<'a> BodyView<'a> {
         angular / self.body.displacement_time()
     }
 
+    /// Velocity of the body at a point (in the world, m), in m/s: of a rigid body that of its material point there, of
+    /// others that of the nearest particle; zero for a half-space.
+    pub fn velocity_at(&self, point: Vec3) -> Vec3 {
+        if self.body.is_rigid() {
+            return self.velocity() + self.angular_velocity().cross(point - self.center_of_mass());
+        }
+        let far = |i: &u32| self.positions()[*i as usize].distance_squared(point);
+        let nearest = (0..self.positions().len() as u32).min_by(|i, j| far(i).total_cmp(&far(j)));
+        nearest.map_or(Vec3::ZERO, |i| self.particle_velocity(i))
+    }
+
+    /// The moments of inertia of a rigid body about its principal axes, in kg m², ascending; 0 for what has no inside
+    /// or is no rigid body.
+    pub fn principal_moments(&self) -> Vec3 {
+        self.body.rigid().map_or(Vec3::ZERO, |rigid| rigid.principal_moments())
+    }
+
+    /// The inertia tensor of a rigid body about its centre of mass, in the world's frame, in kg m²; 0 for what has no
+    /// inside or is no rigid body.
+    pub fn inertia(&self) -> Mat3 {
+        if !self.body.is_rigid() {
+            return Mat3::ZERO;
+        }
+        let axes = Frame::of_particles(self.positions()).axes;
+        axes * Mat3::from_diagonal(self.principal_moments()) * axes.transpose()
+    }
+
     /// Σ m x / Σ m, in m; the origin for a half-space.
     pub fn center_of_mass(&self) -> Vec3 {
         self.mean(|i| self.particles.position[i])
@@ -114,9 +164,41 @@ impl<'a> BodyView<'a> {
         self.mean(|i| self.particles.displacement[i]) / self.body.displacement_time()
     }
 
-    /// Σ m, in kg; 0 for a half-space.
+    /// Σ m, in kg; 0 for a half-space. Of a rigid body that is not dynamic what it would weigh.
     pub fn mass(&self) -> f32 {
         self.particles.mass[self.body.particles.clone()].iter().sum()
+    }
+
+    /// Friction, restitution and how they combine.
+    pub fn surface(&self) -> Surface {
+        self.body.surface
+    }
+
+    /// What moves it. Trusses, cloth and rope are dynamic unless they are fixed.
+    pub fn motion(&self) -> Motion {
+        match self.body.rigid() {
+            Some(rigid) => rigid.traits.motion,
+            None if self.body.fixed => Motion::Fixed,
+            None => Motion::Dynamic,
+        }
+    }
+
+    /// How many times the world's gravity acts on it.
+    pub fn gravity_scale(&self) -> f32 {
+        self.body.rigid().map_or(1.0, |rigid| rigid.traits.gravity_scale)
+    }
+
+    /// The rates at which the motion and the rotation of a rigid body die out, in 1/s; 0 for others, see
+    /// [`Settings::damping`](crate::Settings::damping).
+    pub fn damping(&self) -> [f32; 2] {
+        self.body
+            .rigid()
+            .map_or([0.0; 2], |rigid| [rigid.traits.linear_damping, rigid.traits.angular_damping])
+    }
+
+    /// Which bodies it collides with; all, if it is no rigid body.
+    pub fn groups(&self) -> CollisionGroups {
+        self.body.rigid().map_or(CollisionGroups::default(), |rigid| rigid.traits.groups)
     }
 
     /// Coulomb's coefficient of friction.

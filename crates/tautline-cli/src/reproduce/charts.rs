@@ -1,17 +1,12 @@
 //! Line charts, drawn once and written as SVG and as PNG.
 
-use std::error::Error;
 use std::path::Path;
-use std::sync::Once;
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::register_font;
-use tautline_scene::export::write_png;
-use tautline_scene::render::Image;
 
 use crate::failure::Failure;
-use crate::output::write_text;
+use crate::picture::{self, Drawing, Drawn, INK, font};
 
 /// A chart: panels side by side under one title.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,70 +68,36 @@ pub(super) struct Line {
     pub(super) points: Vec<(f64, f64)>,
 }
 
-/// In px of the SVG; the PNG has `PNG_SCALE` times as many, so that it is sharp on any screen. It is drawn
-/// `SAMPLES` times larger still and averaged: its lines and letters have smooth edges.
+/// In px.
 const SIZE: (u32, u32) = (760, 460);
-const PNG_SCALE: u32 = 2;
-const SAMPLES: u32 = 2;
 
 /// Blue and orange can be told apart by everybody.
 const COLORS: [RGBColor; 2] = [RGBColor(31, 95, 191), RGBColor(217, 108, 0)];
-const INK: RGBColor = RGBColor(40, 44, 52);
 const GRID: RGBColor = RGBColor(226, 228, 232);
 
-type Drawn = Result<(), Box<dyn Error>>;
-
-/// Writes a chart into a folder, as `.svg` and `.png`.
+/// Writes a chart into a folder, as `.svg` and as `.png`.
 pub(super) fn write(chart: &Chart, folder: &Path) -> Result<(), Failure> {
-    let failed = |error: Box<dyn Error>| Failure::Usage(format!("{}: {error}", chart.file));
     let path = folder.join(chart.file);
-    write_text(&path.with_extension("svg"), &svg(chart).map_err(failed)?)?;
-    write_png(&image(chart).map_err(failed)?, &path.with_extension("png"))?;
-    Ok(())
+    picture::write(chart, &path.with_extension("svg"))?;
+    picture::write(chart, &path.with_extension("png"))
 }
 
-fn svg(chart: &Chart) -> Result<String, Box<dyn Error>> {
-    let mut text = String::new();
-    draw(chart, &SVGBackend::with_string(&mut text, SIZE).into_drawing_area(), 1)?;
-    Ok(text)
-}
-
-fn image(chart: &Chart) -> Result<Image, Box<dyn Error>> {
-    let scale = PNG_SCALE * SAMPLES;
-    let (width, height) = (SIZE.0 * scale, SIZE.1 * scale);
-    let mut bytes = vec![0; (width * height * 3) as usize];
-    let area = BitMapBackend::with_buffer(&mut bytes, (width, height)).into_drawing_area();
-    draw(chart, &area, scale)?;
-    drop(area);
-    Ok(averaged(&bytes, width as usize, SAMPLES as usize))
-}
-
-/// Takes the mean of every `samples` × `samples` pixels. In sRGB, not in light: dark text on white stays dark.
-fn averaged(bytes: &[u8], row: usize, samples: usize) -> Image {
-    let (width, height) = (row / samples, bytes.len() / (3 * row * samples));
-    let mean = |x: usize, y: usize, channel: usize| {
-        let at = |i: usize| ((y * samples + i / samples) * row + x * samples + i % samples) * 3 + channel;
-        let sum: usize = (0..samples * samples).map(|i| usize::from(bytes[at(i)])).sum();
-        (sum / (samples * samples)) as u8
-    };
-    let pixels = (0..width * height).map(|i| [0, 1, 2].map(|channel| mean(i % width, i / width, channel)));
-    Image { width, height, pixels: pixels.collect() }
-}
-
-/// Draws a chart `scale` times as large as [`SIZE`].
-fn draw<B: DrawingBackend>(chart: &Chart, area: &DrawingArea<B, Shift>, scale: u32) -> Drawn
-where
-    B::ErrorType: 'static,
-{
-    register_font_once();
-    area.fill(&WHITE)?;
-    let margin = 6 * scale;
-    let area = area.margin(2 * margin, margin, margin, margin).titled(&chart.title, font(20, scale))?;
-    for (panel, area) in chart.panels.iter().zip(area.split_evenly((1, chart.panels.len()))) {
-        draw_panel(panel, &area, scale)?;
+impl Drawing for Chart {
+    fn size(&self) -> (u32, u32) {
+        SIZE
     }
-    area.present()?;
-    Ok(())
+
+    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> Drawn
+    where
+        B::ErrorType: 'static,
+    {
+        let margin = 6 * scale;
+        let area = area.margin(2 * margin, margin, margin, margin).titled(&self.title, font(20, scale))?;
+        for (panel, area) in self.panels.iter().zip(area.split_evenly((1, self.panels.len()))) {
+            draw_panel(panel, &area, scale)?;
+        }
+        Ok(())
+    }
 }
 
 fn draw_panel<B: DrawingBackend>(panel: &Panel, area: &DrawingArea<B, Shift>, scale: u32) -> Drawn
@@ -203,19 +164,6 @@ fn legend_position(lines: &[Line]) -> SeriesLabelPosition {
     }
 }
 
-fn font(size: u32, scale: u32) -> TextStyle<'static> {
-    ("sans-serif", size * scale).into_font().color(&INK)
-}
-
-/// A picture needs a font of its own: not every machine has one, and none the same.
-fn register_font_once() {
-    static ONCE: Once = Once::new();
-    ONCE.call_once(|| {
-        // It fails only for bytes that are no font; drawing would then say that there is none.
-        let _ = register_font("sans-serif", FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT);
-    });
-}
-
 /// 12500 → "12 500": digits in groups of three.
 pub(super) fn number(value: f64) -> String {
     let digits = format!("{value:.0}");
@@ -228,6 +176,7 @@ pub(super) fn number(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::picture::{image, svg};
 
     fn chart() -> Chart {
         let rising = Line { name: "rising", points: vec![(5.0, 10.0), (50.0, 12_500.0)] };

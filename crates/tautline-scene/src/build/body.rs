@@ -4,18 +4,18 @@ use std::collections::BTreeSet;
 use std::f32::consts::PI;
 
 use tautline::mesh::TriMesh;
-use tautline::{BodyHandle, Error, Quat, TrussBody, Vec3, World};
+use tautline::{BodyHandle, Error, Quat, Vec3, World};
 
-use super::shape::{Solids, triangles, unread};
+use super::rigid::{rigid_body, surface, truss_body};
+use super::shape::{Make, Solids, triangles, unread};
 use super::wall;
 use super::{Look, Part};
 use crate::document::{
-    Body, Cloth, Color, HalfSpace, Pin, Rigid, Room, Rope, RopeEnd, Rotation, SheetPlace, Surface, Thread,
+    Body, Cloth, Color, HalfSpace, Motion, Pin, Rigid, Room, Rope, RopeEnd, Rotation, SheetPlace, Surface,
+    Thread,
 };
 use crate::render::palette;
 
-/// The density of water, in kg/m³, where a document gives neither mass nor density.
-const DENSITY: f32 = 1000.0;
 /// Colour of what never moves.
 const GREY: [u8; 3] = [176, 180, 188];
 
@@ -42,8 +42,8 @@ pub(super) struct Builder {
 }
 
 impl Builder {
-    pub(super) fn new(world: World) -> Self {
-        let (parts, solids, names) = (Vec::new(), Solids::default(), BTreeSet::new());
+    pub(super) fn new(world: World, has_trusses: bool) -> Self {
+        let (parts, solids, names) = (Vec::new(), Solids::new(has_trusses), BTreeSet::new());
         Self { world, parts, solids, names, colored: 0 }
     }
 
@@ -61,22 +61,18 @@ impl Builder {
 
     fn add_rigid(&mut self, name: String, rigid: &Rigid) -> Result<(), Refusal> {
         let solid = self.solids.get(&rigid.shape).map_err(|error| Refusal { field: ".shape", error })?;
-        let rotation = quaternion(rigid.rotation);
-        let mass =
-            rigid.mass.unwrap_or_else(|| (f64::from(rigid.density.unwrap_or(DENSITY)) * solid.volume) as f32);
-        let body = TrussBody::new(&solid.truss)
-            .position(Vec3::from(rigid.position) + rotation * solid.origin)
-            .rotation(rotation)
-            .velocity(rigid.velocity.into())
-            .angular_velocity(rigid.angular_velocity.into())
-            .mass(mass)
-            .friction(rigid.friction);
-        let body = self.world.add(if rigid.fixed { body.fixed() } else { body })?;
+        let body = match solid.make {
+            Make::Rigid(shape) => self.world.add(rigid_body(rigid, &shape)),
+            Make::Truss { truss, origin, volume } => {
+                self.world.add(truss_body(rigid, &truss, origin, volume))
+            }
+        }?;
         let color = match rigid.color {
-            None if rigid.fixed => GREY,
+            None if rigid.motion() == Motion::Fixed => GREY,
             given => self.color(given),
         };
-        self.push(name, color, body, Look::Solid(solid.surface));
+        let look = if solid.is_round { Look::Round } else { Look::Solid };
+        self.push(name, color, body, look(solid.surface));
         Ok(())
     }
 
@@ -148,8 +144,9 @@ impl Builder {
     }
 
     fn add_half_space(&mut self, name: String, half_space: &HalfSpace) -> Result<(), Refusal> {
-        let HalfSpace { normal, offset, friction, color, .. } = half_space;
-        let wall = tautline::HalfSpace::new(Vec3::from(*normal), *offset).friction(*friction);
+        let HalfSpace { normal, offset, friction, restitution, rolling_friction, color, .. } = half_space;
+        let wall = tautline::HalfSpace::new(Vec3::from(*normal), *offset);
+        let wall = wall.surface(surface(*friction, *restitution, *rolling_friction));
         let body = self.world.add(wall)?;
         // What is drawn of it depends on where the other bodies are: see `finish`.
         self.push(name, color.map_or(GREY, |color| color.0), body, Look::Wall(TriMesh::default()));
@@ -158,7 +155,8 @@ impl Builder {
 
     fn add_room(&mut self, name: &str, room: &Room) -> Result<(), Refusal> {
         for side in wall::sides(room) {
-            let wall = tautline::HalfSpace::new(side.normal, side.offset).friction(room.friction);
+            let wall = tautline::HalfSpace::new(side.normal, side.offset);
+            let wall = wall.surface(surface(room.friction, room.restitution, room.rolling_friction));
             let body = self.world.add(wall)?;
             let color = room.color.map_or(GREY, |color| color.0);
             self.push(format!("{name} {}", side.name), color, body, Look::Wall(side.mesh));
@@ -210,7 +208,7 @@ impl Builder {
 }
 
 /// The rotation as a unit quaternion.
-fn quaternion(rotation: Rotation) -> Quat {
+pub(super) fn quaternion(rotation: Rotation) -> Quat {
     match rotation {
         Rotation::Quaternion(quaternion) => Quat::from_array(quaternion).normalize(),
         Rotation::AxisAngle(turn) => {

@@ -1,6 +1,7 @@
 //! Documents to worlds.
 
 mod body;
+mod rigid;
 mod settings;
 mod shape;
 mod wall;
@@ -54,6 +55,8 @@ pub struct Part {
 pub enum Look {
     /// A solid with this surface, in the frame of its pose; bodies of one shape share it.
     Solid(Arc<TriMesh>),
+    /// The same for a solid without edges.
+    Round(Arc<TriMesh>),
     /// A sheet: the triangles are those of the body's view.
     Sheet,
     /// A tube along the body's particles.
@@ -66,7 +69,7 @@ pub enum Look {
 }
 
 impl Scene {
-    /// Makes the world that the document describes. Bodies of equal shape share one truss.
+    /// Makes the world that the document describes. Bodies of equal shape share it.
     ///
     /// # Errors
     /// [`Error::Invalid`] with every problem of the document's values or, if these are right, every body that
@@ -74,7 +77,7 @@ impl Scene {
     /// been read, which [`load`](crate::load) does.
     pub fn build(&self) -> Result<BuiltScene, Error> {
         self.check()?;
-        let mut builder = Builder::new(World::new(settings::of(&self.settings))?);
+        let mut builder = Builder::new(World::new(settings::of(&self.settings))?, self.has_trusses());
         let mut problems = Vec::new();
         for (i, body) in self.bodies.iter().enumerate() {
             if let Err(refusal) = builder.add(i, body) {

@@ -1,27 +1,49 @@
-//! Shapes of a document to trusses and sheets.
+//! Shapes of a document to shapes and trusses of the engine.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use tautline::mesh::{MassProperties, TriMesh, convex_hull, primitives};
-use tautline::{Error, Truss, Vec3};
+use tautline::{Error, Quat, Truss, Vec3};
 
-use crate::document::{MeshSource, Shape};
+use super::body::quaternion;
+use crate::document::{MeshSource, PartOfCompound, Shape, Surface};
 
 /// A shape made ready for bodies.
 #[derive(Debug, Clone)]
 pub(super) struct Solid {
-    pub(super) truss: Arc<Truss>,
-    /// The surface in the truss's frame, to be drawn.
+    pub(super) make: Make,
+    /// The surface in the frame of a body's pose, to be drawn.
     pub(super) surface: Arc<TriMesh>,
-    /// Where the truss's frame is in the document's, in m.
-    pub(super) origin: Vec3,
-    /// In m³.
-    pub(super) volume: f64,
+    /// Whether it is round, and drawn smooth.
+    pub(super) is_round: bool,
+}
+
+/// What its bodies are made of.
+#[derive(Debug, Clone)]
+pub(super) enum Make {
+    /// Four particles.
+    Rigid(Arc<tautline::Shape>),
+    /// Sticks.
+    Truss {
+        truss: Arc<Truss>,
+        /// Where the truss's frame is in the document's, in m.
+        origin: Vec3,
+        /// In m³.
+        volume: f64,
+    },
 }
 
 impl Solid {
-    fn new(shape: &Shape) -> Result<Self, Error> {
+    fn rigid(shape: &Shape) -> Result<Self, Error> {
+        let is_round = is_round(shape);
+        let shape = shape_of(shape)?;
+        let surface =
+            TriMesh { positions: shape.positions().to_vec(), triangles: shape.triangles().to_vec() };
+        Ok(Self { make: Make::Rigid(Arc::new(shape)), surface: Arc::new(surface), is_round })
+    }
+
+    fn truss(shape: &Shape) -> Result<Self, Error> {
         let mesh = mesh_of(shape)?;
         let truss = Truss::from_mesh(&mesh)?;
         let rest = truss.rest_positions();
@@ -30,23 +52,77 @@ impl Solid {
         let positions = rest[..truss.surface().vertex_count()].to_vec();
         let surface = Arc::new(TriMesh { positions, triangles: truss.triangles().to_vec() });
         let volume = MassProperties::of(&mesh, 1.0)?.volume;
-        Ok(Self { truss: Arc::new(truss), surface, origin, volume })
+        let make = Make::Truss { truss: Arc::new(truss), origin, volume };
+        Ok(Self { make, surface, is_round: is_round(shape) })
     }
 }
 
 /// The solids of a scene, each distinct shape once: also those that are refused.
-#[derive(Debug, Default)]
-pub(super) struct Solids(BTreeMap<String, Result<Solid, Error>>);
+#[derive(Debug)]
+pub(super) struct Solids {
+    are_trusses: bool,
+    made: BTreeMap<String, Result<Solid, Error>>,
+}
 
 impl Solids {
-    /// The solid of a shape.
+    pub(super) fn new(are_trusses: bool) -> Self {
+        Self { are_trusses, made: BTreeMap::new() }
+    }
+
     pub(super) fn get(&mut self, shape: &Shape) -> Result<Solid, Error> {
         // Shapes of the same numbers have the same text, since numbers are written exactly.
         let key = serde_json::to_string(shape).unwrap_or_default();
-        self.0.entry(key).or_insert_with(|| Solid::new(shape)).clone()
+        let make = if self.are_trusses { Solid::truss } else { Solid::rigid };
+        self.made.entry(key).or_insert_with(|| make(shape)).clone()
     }
 }
 
+/// Whether it has no edges.
+fn is_round(shape: &Shape) -> bool {
+    match shape {
+        Shape::Sphere { .. } => true,
+        Shape::Capsule { segments, rings, .. } => segments.or(*rings).is_none(),
+        _ => false,
+    }
+}
+
+/// What a body of four particles collides as: exact where no facets are asked for.
+fn shape_of(shape: &Shape) -> Result<tautline::Shape, Error> {
+    match *shape {
+        Shape::Box { size } => tautline::Shape::cuboid(Vec3::from(size) / 2.0),
+        Shape::Sphere { radius } => tautline::Shape::sphere(radius),
+        Shape::Capsule { radius, height, segments: None, rings: None } => {
+            tautline::Shape::capsule(radius, height / 2.0)
+        }
+        Shape::Cylinder { radius, height, segments: None } => tautline::Shape::cylinder(radius, height / 2.0),
+        Shape::Torus { .. } | Shape::Mesh(_) | Shape::File(_) => tautline::Shape::from_mesh(&mesh_of(shape)?),
+        Shape::Compound { ref parts } => compound(parts),
+        Shape::Surface(ref surface) => tautline::Shape::triangle_mesh(&sheet_of(surface)?),
+        Shape::HeightField { columns, rows, cell_size, ref heights } => {
+            tautline::Shape::height_field(columns, rows, cell_size, heights)
+        }
+        Shape::Tetrahedron { .. }
+        | Shape::Octahedron { .. }
+        | Shape::Dodecahedron { .. }
+        | Shape::Icosahedron { .. }
+        | Shape::Icosphere { .. }
+        | Shape::UvSphere { .. }
+        | Shape::Capsule { .. }
+        | Shape::Cylinder { .. }
+        | Shape::Hull { .. } => tautline::Shape::convex_hull(&mesh_of(shape)?.positions),
+    }
+}
+
+fn compound(parts: &[PartOfCompound]) -> Result<tautline::Shape, Error> {
+    let shapes: Vec<tautline::Shape> =
+        parts.iter().map(|part| shape_of(&part.shape)).collect::<Result<_, _>>()?;
+    let places = parts.iter().map(|part| (Vec3::from(part.position), quaternion(part.rotation)));
+    let placed: Vec<(&tautline::Shape, Vec3, Quat)> =
+        shapes.iter().zip(places).map(|(shape, (position, rotation))| (shape, position, rotation)).collect();
+    tautline::Shape::compound(&placed)
+}
+
+/// The surface of a solid; faceted where it is round.
 fn mesh_of(shape: &Shape) -> Result<TriMesh, Error> {
     match *shape {
         Shape::Box { size } => primitives::cuboid(Vec3::from(size) / 2.0),
@@ -54,12 +130,16 @@ fn mesh_of(shape: &Shape) -> Result<TriMesh, Error> {
         Shape::Octahedron { radius } => primitives::octahedron(radius),
         Shape::Dodecahedron { radius } => primitives::dodecahedron(radius),
         Shape::Icosahedron { radius } => primitives::icosahedron(radius),
+        Shape::Sphere { radius } => primitives::icosphere(radius, Shape::SPHERE_SUBDIVISIONS),
         Shape::Icosphere { radius, subdivisions } => primitives::icosphere(radius, subdivisions),
         Shape::UvSphere { radius, segments, rings } => primitives::uv_sphere(radius, segments, rings),
         Shape::Capsule { radius, height, segments, rings } => {
-            primitives::capsule(radius, height / 2.0, segments, rings)
+            let segments = segments.unwrap_or(Shape::CAPSULE_SEGMENTS);
+            primitives::capsule(radius, height / 2.0, segments, rings.unwrap_or(Shape::CAPSULE_RINGS))
         }
-        Shape::Cylinder { radius, height, segments } => primitives::cylinder(radius, height / 2.0, segments),
+        Shape::Cylinder { radius, height, segments } => {
+            primitives::cylinder(radius, height / 2.0, segments.unwrap_or(Shape::CYLINDER_SEGMENTS))
+        }
         Shape::Torus { radius, tube_radius, segments, tube_segments } => {
             primitives::torus(radius, tube_radius, segments, tube_segments)
         }
@@ -69,6 +149,18 @@ fn mesh_of(shape: &Shape) -> Result<TriMesh, Error> {
         }
         Shape::Mesh(ref mesh) => Ok(triangles(mesh)),
         Shape::File(_) => Err(unread()),
+        Shape::Compound { .. } | Shape::Surface(_) | Shape::HeightField { .. } => {
+            let problem = "it cannot be a truss".to_owned();
+            Err(Error::Invalid { field: "shape".to_owned(), problem })
+        }
+    }
+}
+
+fn sheet_of(surface: &Surface) -> Result<TriMesh, Error> {
+    match *surface {
+        Surface::Grid { columns, rows, width, depth } => primitives::grid(columns, rows, width, depth),
+        Surface::Mesh(ref mesh) => Ok(triangles(mesh)),
+        Surface::File(_) => Err(unread()),
     }
 }
 

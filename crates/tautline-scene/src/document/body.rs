@@ -7,7 +7,8 @@ use serde::de::{Deserializer, Error, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
 
 use super::limits;
-use super::shape::{Shape, Surface, Thread};
+use super::rigid::Rigid;
+use super::shape::{Surface, Thread};
 use super::value::{Color, Pin, RopeEnd, Rotation, SheetPlace, Weight};
 
 /// One thing in the scene.
@@ -24,57 +25,6 @@ pub enum Body {
     HalfSpace(HalfSpace),
     /// The inside of an unmoving box.
     Room(Room),
-}
-
-/// A solid that keeps its shape.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct Rigid {
-    /// A name of its own, if any.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub name: Option<String>,
-    /// Its shape, in its own frame.
-    pub shape: Shape,
-    /// Where its frame is, in m.
-    pub position: [f32; 3],
-    /// How its frame is turned.
-    pub rotation: Rotation,
-    /// Velocity, in m/s.
-    pub velocity: [f32; 3],
-    /// Angular velocity about the centre of mass, in rad/s.
-    pub angular_velocity: [f32; 3],
-    /// Mass, in kg. Either this or `density`; without both the density is 1000 kg/m³.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mass: Option<f32>,
-    /// Density, in kg/m³.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub density: Option<f32>,
-    /// Coefficient of friction, 0 being none.
-    pub friction: f32,
-    /// Whether it never moves.
-    pub fixed: bool,
-    /// Colour; chosen by its place in the scene if absent.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub color: Option<Color>,
-}
-
-impl Default for Rigid {
-    /// A cube of 1 m.
-    fn default() -> Self {
-        Self {
-            name: None,
-            shape: Shape::default(),
-            position: [0.0; 3],
-            rotation: Rotation::default(),
-            velocity: [0.0; 3],
-            angular_velocity: [0.0; 3],
-            mass: None,
-            density: None,
-            friction: 0.5,
-            fixed: false,
-            color: None,
-        }
-    }
 }
 
 /// A sheet. A grid lies in the plane y = 0 of its own frame, around the origin.
@@ -209,6 +159,14 @@ pub struct HalfSpace {
     pub offset: f32,
     /// Coefficient of friction, 0 being none.
     pub friction: f32,
+    /// Speed apart over speed together of a collision, 0 to 1; of two bodies the larger counts. Only for the solver
+    /// `default` without cloth and rope.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub restitution: Option<f32>,
+    /// How far, in m, the normal force acts in front of the point of contact of what rolls on it; as that of a rigid
+    /// body. Only for the solver `default` without cloth and rope.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rolling_friction: Option<f32>,
     /// Colour; a grey if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,
@@ -217,7 +175,15 @@ pub struct HalfSpace {
 impl Default for HalfSpace {
     /// The floor at y = 0.
     fn default() -> Self {
-        Self { name: None, normal: [0.0, 1.0, 0.0], offset: 0.0, friction: 0.5, color: None }
+        Self {
+            name: None,
+            normal: [0.0, 1.0, 0.0],
+            offset: 0.0,
+            friction: 0.5,
+            restitution: None,
+            rolling_friction: None,
+            color: None,
+        }
     }
 }
 
@@ -234,6 +200,14 @@ pub struct Room {
     pub max: [f32; 3],
     /// Coefficient of friction, 0 being none.
     pub friction: f32,
+    /// Speed apart over speed together of a collision, 0 to 1; of two bodies the larger counts. Only for the solver
+    /// `default` without cloth and rope.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub restitution: Option<f32>,
+    /// How far, in m, the normal force acts in front of the point of contact of what rolls on it; as that of a rigid
+    /// body. Only for the solver `default` without cloth and rope.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rolling_friction: Option<f32>,
     /// Colour; a grey if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,
@@ -242,7 +216,15 @@ pub struct Room {
 impl Default for Room {
     /// 4 m × 4 m × 4 m on the floor y = 0.
     fn default() -> Self {
-        Self { name: None, min: [-2.0, 0.0, -2.0], max: [2.0, 4.0, 2.0], friction: 0.5, color: None }
+        Self {
+            name: None,
+            min: [-2.0, 0.0, -2.0],
+            max: [2.0, 4.0, 2.0],
+            friction: 0.5,
+            restitution: None,
+            rolling_friction: None,
+            color: None,
+        }
     }
 }
 
@@ -272,16 +254,18 @@ impl Body {
     /// How many triangles it gives one by one.
     pub fn triangle_count(&self) -> u64 {
         match self {
-            Self::Rigid(Rigid { shape: Shape::Mesh(mesh), .. })
-            | Self::Cloth(Cloth { surface: Surface::Mesh(mesh), .. }) => mesh.triangles.len() as u64,
-            _ => 0,
+            Self::Rigid(rigid) => rigid.shape.triangle_count(),
+            Self::Cloth(cloth) => cloth.surface.triangle_count(),
+            Self::Rope(_) | Self::HalfSpace(_) | Self::Room(_) => 0,
         }
     }
 
-    /// How many particles it asks for at most; 0 for what has none, and for a mesh file that is not loaded.
-    pub fn particle_count(&self) -> u64 {
+    /// How many particles it asks for at most, where rigid bodies are trusses or are not; 0 for what has none, and
+    /// for a mesh file that is not loaded.
+    pub fn particle_count(&self, has_trusses: bool) -> u64 {
         match self {
-            Self::Rigid(rigid) => rigid.shape.vertex_count(),
+            Self::Rigid(rigid) if has_trusses => rigid.shape.vertex_count(),
+            Self::Rigid(_) => 4,
             Self::Cloth(cloth) => cloth.surface.vertex_count(),
             Self::Rope(rope) => rope.path.point_count(),
             Self::HalfSpace(_) | Self::Room(_) => 0,

@@ -39,6 +39,11 @@ pub(super) const TOLERANCE: Rule =
 /// A rate, in 1/s.
 pub(super) const RATE: Rule =
     Rule { holds: |x| (0.0..=1e6).contains(&x), expected: "a number from 0 to 1000000" };
+/// A part of a whole.
+pub(super) const SHARE: Rule = Rule { holds: |x| (0.0..=1.0).contains(&x), expected: "a number from 0 to 1" };
+/// How many times something acts.
+pub(super) const FACTOR: Rule =
+    Rule { holds: |x| x.abs() <= 1e6, expected: "a finite number between -1000000 and 1000000" };
 /// An angle between two segments, in degrees.
 pub(super) const ANGLE: Rule =
     Rule { holds: |x| (0.0..=180.0).contains(&x), expected: "a number of degrees from 0 to 180" };
@@ -99,6 +104,13 @@ impl Checker {
         self.require((least..=most).contains(&value), field, || {
             format!("{value} is not a whole number from {least} to {most}")
         });
+    }
+
+    /// A whole number that may be absent.
+    pub(super) fn optional_count(&mut self, field: impl Display, value: Option<u32>, least: u32, most: u32) {
+        if let Some(value) = value {
+            self.count(field, value, least, most);
+        }
     }
 
     /// Every component of a vector.

@@ -9,6 +9,7 @@ mod check;
 pub mod limits;
 mod nesting;
 mod parse;
+mod rigid;
 mod settings;
 mod shape;
 mod validate;
@@ -17,10 +18,11 @@ mod value;
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 
-pub use body::{Body, Cloth, HalfSpace, Rigid, Room, Rope};
+pub use body::{Body, Cloth, HalfSpace, Room, Rope};
 pub use parse::{Format, parse};
+pub use rigid::{Damping, Groups, Motion, Rigid};
 pub use settings::{BroadPhase, Ordering, Settings, Sleep, Solver, SquareRoot};
-pub use shape::{MeshFile, MeshSource, Shape, Surface, Thread};
+pub use shape::{MeshFile, MeshSource, PartOfCompound, Shape, Surface, Thread};
 pub use value::{AxisAngle, Color, Pin, RopeEnd, Rotation, SheetPlace, Weight};
 
 /// The version of the format that this crate reads and writes.
@@ -82,6 +84,16 @@ impl Default for Scene {
             camera: None,
             bounds: None,
         }
+    }
+}
+
+impl Scene {
+    /// Whether its rigid bodies are trusses of sticks.
+    ///
+    /// Beside cloth and rope they are so under the default solver too, until bodies of four particles meet those.
+    pub fn has_trusses(&self) -> bool {
+        let is_deformable = |body: &Body| matches!(body, Body::Cloth(_) | Body::Rope(_));
+        self.settings.solver == Solver::Paper || self.bodies.iter().any(is_deformable)
     }
 }
 

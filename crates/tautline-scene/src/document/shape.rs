@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::value::Rotation;
+
 /// The shape of a rigid body, in its own frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
@@ -32,6 +34,11 @@ pub enum Shape {
         /// Distance of its vertices from the origin, in m.
         radius: f32,
     },
+    /// A ball. As a truss it is an icosphere of 162 vertices.
+    Sphere {
+        /// Radius, in m.
+        radius: f32,
+    },
     /// A ball of triangles of about equal size: an icosahedron, divided.
     Icosphere {
         /// Radius, in m.
@@ -48,25 +55,28 @@ pub enum Shape {
         /// Bands between the poles.
         rings: u32,
     },
-    /// A cylinder along Y with half balls for ends.
+    /// A cylinder along Y with half balls for ends; round if neither `segments` nor `rings` is given.
     Capsule {
         /// Radius, in m.
         radius: f32,
         /// Height of the cylinder without its ends, in m.
         height: f32,
-        /// Corners around.
-        segments: u32,
-        /// Bands of each end.
-        rings: u32,
+        /// Corners around; 16 of a truss, and where only `rings` is given.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        segments: Option<u32>,
+        /// Bands of each end; 4 of a truss, and where only `segments` is given.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        rings: Option<u32>,
     },
-    /// A cylinder along Y.
+    /// A cylinder along Y; round if `segments` is not given.
     Cylinder {
         /// Radius, in m.
         radius: f32,
         /// Height, in m.
         height: f32,
-        /// Corners around.
-        segments: u32,
+        /// Corners around; 24 of a truss.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        segments: Option<u32>,
     },
     /// A ring around the Y axis.
     Torus {
@@ -88,6 +98,37 @@ pub enum Shape {
     Mesh(MeshSource),
     /// A closed surface from an OBJ or STL file.
     File(MeshFile),
+    /// Solids that move as one. Not for a truss.
+    Compound {
+        /// The solids; their masses are added, also where they overlap.
+        parts: Vec<PartOfCompound>,
+    },
+    /// A surface without an inside, which may be open: ground and walls of a body that is fixed or kinematic, solid
+    /// where its triangles run counter-clockwise. Not for a truss.
+    Surface(Surface),
+    /// A landscape around the origin, of a body that is fixed or kinematic. Not for a truss.
+    HeightField {
+        /// Heights along X.
+        columns: u32,
+        /// Heights along Z.
+        rows: u32,
+        /// Distance of neighbouring heights along X and along Z, in m.
+        cell_size: f32,
+        /// Heights (Y), in m, row after row.
+        heights: Vec<f32>,
+    },
+}
+
+/// A solid of a compound.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct PartOfCompound {
+    /// Its shape, in its own frame.
+    pub shape: Shape,
+    /// Where its frame is in that of the compound, in m.
+    pub position: [f32; 3],
+    /// How its frame is turned in that of the compound.
+    pub rotation: Rotation,
 }
 
 impl Default for Shape {
@@ -122,7 +163,7 @@ fn metre() -> f32 {
     1.0
 }
 
-/// The rest shape of a sheet, in its own frame.
+/// The rest shape of a sheet, or ground and walls, in its own frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Surface {
@@ -175,7 +216,16 @@ impl Default for Thread {
 }
 
 impl Shape {
-    /// How many vertices it has at most; 0 for a file.
+    /// Corners around a capsule of which facets are asked, but not how many.
+    pub(crate) const CAPSULE_SEGMENTS: u32 = 16;
+    /// Bands of each of its ends.
+    pub(crate) const CAPSULE_RINGS: u32 = 4;
+    /// Corners around a cylinder of which facets are asked, but not how many.
+    pub(crate) const CYLINDER_SEGMENTS: u32 = 24;
+    /// How often the triangles of an icosahedron are divided for a ball of which facets are asked.
+    pub(crate) const SPHERE_SUBDIVISIONS: u32 = 2;
+
+    /// How many vertices it has at most, faceted; 0 for a file.
     pub fn vertex_count(&self) -> u64 {
         match *self {
             Self::Box { .. } => 8,
@@ -183,19 +233,37 @@ impl Shape {
             Self::Octahedron { .. } => 6,
             Self::Dodecahedron { .. } => 20,
             Self::Icosahedron { .. } => 12,
-            Self::Icosphere { subdivisions, .. } => {
-                4u64.saturating_pow(subdivisions).saturating_mul(10).saturating_add(2)
-            }
+            Self::Sphere { .. } => icosphere_vertices(Self::SPHERE_SUBDIVISIONS),
+            Self::Icosphere { subdivisions, .. } => icosphere_vertices(subdivisions),
             Self::UvSphere { segments, rings, .. } => product(segments, rings),
             Self::Capsule { segments, rings, .. } => {
-                product(segments, rings).saturating_mul(2).saturating_add(2)
+                let segments = segments.unwrap_or(Self::CAPSULE_SEGMENTS);
+                product(segments, rings.unwrap_or(Self::CAPSULE_RINGS)).saturating_mul(2).saturating_add(2)
             }
-            Self::Cylinder { segments, .. } => 2 * u64::from(segments),
+            Self::Cylinder { segments, .. } => 2 * u64::from(segments.unwrap_or(Self::CYLINDER_SEGMENTS)),
             Self::Torus { segments, tube_segments, .. } => product(segments, tube_segments),
             Self::Hull { ref points } => points.len() as u64,
             Self::Mesh(ref mesh) => mesh.positions.len() as u64,
+            Self::Surface(ref surface) => surface.vertex_count(),
+            Self::HeightField { columns, rows, .. } => product(columns, rows),
+            Self::Compound { ref parts } => total(parts, Self::vertex_count),
             Self::File(_) => 0,
         }
+    }
+
+    /// How many triangles it gives one by one.
+    pub fn triangle_count(&self) -> u64 {
+        match self {
+            Self::Mesh(mesh) => mesh.triangles.len() as u64,
+            Self::Surface(surface) => surface.triangle_count(),
+            Self::Compound { parts } => total(parts, Self::triangle_count),
+            _ => 0,
+        }
+    }
+
+    /// Whether it has an inside.
+    pub fn is_solid(&self) -> bool {
+        !matches!(self, Self::Surface(_) | Self::HeightField { .. })
     }
 }
 
@@ -208,6 +276,24 @@ impl Surface {
             Self::File(_) => 0,
         }
     }
+
+    /// How many triangles it gives one by one.
+    pub fn triangle_count(&self) -> u64 {
+        match self {
+            Self::Mesh(mesh) => mesh.triangles.len() as u64,
+            Self::Grid { .. } | Self::File(_) => 0,
+        }
+    }
+}
+
+/// Over the shapes of a compound.
+fn total(parts: &[PartOfCompound], count: fn(&Shape) -> u64) -> u64 {
+    parts.iter().map(|part| count(&part.shape)).fold(0, u64::saturating_add)
+}
+
+/// Of a divided icosahedron.
+fn icosphere_vertices(subdivisions: u32) -> u64 {
+    4u64.saturating_pow(subdivisions).saturating_mul(10).saturating_add(2)
 }
 
 impl Thread {

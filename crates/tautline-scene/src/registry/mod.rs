@@ -1,10 +1,13 @@
 //! The named scenes: the one place where the command line, tests and benchmarks get their scenes from. Each is
 //! a function from parameters to a document, so that every scene can be written out, changed and read again.
 
+mod balance;
 mod cloth;
+mod impact;
 mod parameter;
 mod rigid;
 mod rope;
+mod stacks;
 mod together;
 
 use crate::document::Scene;
@@ -46,8 +49,14 @@ pub fn scenes() -> &'static [NamedScene] {
         rigid::ICOSAHEDRA,
         cloth::CLOTH_ON_CUBE,
         cloth::CLOTH_ON_ROPE,
-        rigid::TOWER,
-        rigid::PYRAMID,
+        stacks::TOWER,
+        stacks::PYRAMID,
+        stacks::MASS_RATIO,
+        balance::ARCH,
+        balance::CARD_HOUSE,
+        balance::DOMINOES,
+        impact::BULLETS,
+        impact::MIXED_PILE,
         cloth::HUNG_CLOTH,
         cloth::CURTAIN,
         rope::CATENARY,

@@ -1,9 +1,9 @@
-//! Scenes of rigid bodies.
+//! Rigid bodies that are thrown.
 
 use tautline::Vec3;
 
 use super::{NamedScene, Parameter, Parameters};
-use crate::document::{Body, Camera, Color, HalfSpace, Rigid, Room, Rotation, Scene, Shape};
+use crate::document::{Body, Camera, Color, Rigid, Room, Rotation, Scene, Shape};
 use crate::random::Random;
 
 pub(super) const ICOSAHEDRA: NamedScene = NamedScene {
@@ -47,47 +47,6 @@ fn icosahedra(p: &Parameters) -> Scene {
     Scene { seconds: 6.0, record_every: 2, bodies, camera: Some(camera(eye, target)), ..Scene::default() }
 }
 
-pub(super) const TOWER: NamedScene = NamedScene {
-    name: "tower",
-    description: "Cubes of 1 m stand on top of each other.",
-    parameters: &[Parameter::count("n", "how many cubes", 10, (1, 100))],
-    document: tower,
-};
-
-fn tower(p: &Parameters) -> Scene {
-    let mut bodies = vec![Body::HalfSpace(HalfSpace::default())];
-    bodies.extend((0..p.count("n")).map(|i| cube(0.0, i as f32 + 0.5)));
-    Scene { seconds: 5.0, record_every: 2, bodies, ..Scene::default() }
-}
-
-pub(super) const PYRAMID: NamedScene = NamedScene {
-    name: "pyramid",
-    description: "Cubes of 1 m are stacked to a pyramid, each on two below it.",
-    parameters: &[Parameter::count("n", "how many cubes its lowest row has", 6, (1, 40))],
-    document: pyramid,
-};
-
-/// Distance of the middles of neighbours in a row of the pyramid, in m.
-const PITCH: f32 = 1.1;
-
-fn pyramid(p: &Parameters) -> Scene {
-    let n = p.count("n");
-    let mut bodies = vec![Body::HalfSpace(HalfSpace::default())];
-    for row in 0..n {
-        let count = n - row;
-        for i in 0..count {
-            let x = (i as f32 - (count - 1) as f32 / 2.0) * PITCH;
-            bodies.push(cube(x, row as f32 + 0.5));
-        }
-    }
-    Scene { seconds: 5.0, record_every: 2, bodies, ..Scene::default() }
-}
-
-/// 1 m, 1 kg.
-fn cube(x: f32, y: f32) -> Body {
-    Body::Rigid(Rigid { position: [x, y, 0.0], mass: Some(1.0), ..Rigid::default() })
-}
-
-fn camera(eye: Vec3, target: Vec3) -> Camera {
+pub(super) fn camera(eye: Vec3, target: Vec3) -> Camera {
     Camera { eye: eye.to_array(), target: target.to_array(), ..Camera::default() }
 }

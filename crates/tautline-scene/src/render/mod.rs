@@ -142,7 +142,7 @@ impl Material {
     }
 
     fn is_smooth(&self) -> bool {
-        matches!(self.surface, Surface::Sheet | Surface::Tube)
+        matches!(self.surface, Surface::Sheet | Surface::Round)
     }
 }
 

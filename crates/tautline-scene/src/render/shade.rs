@@ -208,7 +208,7 @@ impl Renderer<'_> {
             towards_eye: -ray.normalize(),
             sunlight: if facing_sun { shadow_map.light_at(p, normal) } else { 0.0 },
             openness,
-            glossy: matches!(material.surface, Surface::Solid | Surface::Tube),
+            glossy: matches!(material.surface, Surface::Solid | Surface::Round),
         };
         tone_map(light(&spot, self.sun.direction)).lerp(behind, fade)
     }

@@ -44,7 +44,7 @@ impl Stage {
         for track in &recording.tracks {
             let at_frame = track.positions_at(frame);
             match track.surface {
-                Surface::Sheet | Surface::Tube => {
+                Surface::Sheet | Surface::Round => {
                     normals.extend(smooth_normals(&at_frame, &track.mesh.triangles));
                 }
                 Surface::Solid | Surface::Wall => normals.resize(normals.len() + at_frame.len(), Vec3::ZERO),

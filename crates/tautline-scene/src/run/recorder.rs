@@ -76,14 +76,18 @@ fn track_of(part: &Part, world: &World) -> Result<(Track, Source), Error> {
     let body = world.body(part.body)?;
     let (surface, mesh, motion, source) = match &part.look {
         Look::Wall(mesh) => (Surface::Wall, mesh.clone(), Motion::Still, Source::Still),
-        Look::Solid(mesh) => match body.pose() {
-            Some((position, rotation)) if body.is_fixed() => {
-                let positions = mesh.positions.iter().map(|&p| position + rotation * p).collect();
-                let mesh = TriMesh { positions, triangles: mesh.triangles.clone() };
-                (Surface::Solid, mesh, Motion::Still, Source::Still)
+        Look::Solid(mesh) | Look::Round(mesh) => {
+            let is_round = matches!(part.look, Look::Round(_));
+            let surface = if is_round { Surface::Round } else { Surface::Solid };
+            match body.pose() {
+                Some((position, rotation)) if body.is_fixed() => {
+                    let positions = mesh.positions.iter().map(|&p| position + rotation * p).collect();
+                    let mesh = TriMesh { positions, triangles: mesh.triangles.clone() };
+                    (surface, mesh, Motion::Still, Source::Still)
+                }
+                _ => (surface, TriMesh::clone(mesh), Motion::Rigid(Vec::new()), Source::Rigid(part.body)),
             }
-            _ => (Surface::Solid, TriMesh::clone(mesh), Motion::Rigid(Vec::new()), Source::Rigid(part.body)),
-        },
+        }
         Look::Sheet => {
             let mesh = TriMesh { positions: body.positions().to_vec(), triangles: body.triangles().to_vec() };
             (Surface::Sheet, mesh, Motion::Deforming(Vec::new()), Source::Sheet(part.body))
@@ -91,7 +95,7 @@ fn track_of(part: &Part, world: &World) -> Result<(Track, Source), Error> {
         Look::Tube { radius } => {
             let mut tube = Tube::new(*radius);
             let mesh = tube.mesh(body.positions());
-            (Surface::Tube, mesh, Motion::Deforming(Vec::new()), Source::Rope(part.body, tube))
+            (Surface::Round, mesh, Motion::Deforming(Vec::new()), Source::Rope(part.body, tube))
         }
     };
     Ok((Track { name: part.name.clone(), color: part.color, surface, mesh, motion }, source))

@@ -64,6 +64,8 @@ pub struct PhaseMilliseconds {
     pub separate: f64,
     /// Relaxing constraints.
     pub relax: f64,
+    /// Solving for bodies of four particles.
+    pub solve: f64,
 }
 
 /// Sums over the steps of a run.
@@ -111,6 +113,7 @@ impl Tally {
                 narrow_phase: ms_per_step(phases.narrow_phase),
                 separate: ms_per_step(phases.separate),
                 relax: ms_per_step(phases.relax),
+                solve: ms_per_step(phases.solve),
             },
             escaped: escaped(scene)?,
             nonfinite: self.faults,

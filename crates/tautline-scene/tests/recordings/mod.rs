@@ -205,7 +205,7 @@ pub(crate) fn sheet_and_tube(n: u32, frames: usize) -> Recording {
         track("floor", [222, 220, 214], Surface::Wall, floor, Motion::Still),
         track("cube", palette(4), Surface::Solid, cube, Motion::Still),
         deforming("sheet", palette(3), Surface::Sheet, grid(n, n), (0..frames).map(sheet).collect()),
-        deforming("tube", palette(0), Surface::Tube, grid(10, 40), (0..frames).map(tube).collect()),
+        deforming("tube", palette(0), Surface::Round, grid(10, 40), (0..frames).map(tube).collect()),
     ];
     Recording { name: "sheet and tube".into(), frame_rate: FRAME_RATE, tracks }
 }

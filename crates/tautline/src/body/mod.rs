@@ -25,9 +25,9 @@ pub use rope::Rope;
 pub use surface::{Combine, Surface};
 pub use truss::{Truss, TrussBody};
 
-pub(crate) use rigid::{CORNERS, Frame, Rigid, rigid_motion};
-pub(crate) use surface::Touch;
 pub(crate) use deformable::{BuiltDeformable, Deformable};
+pub(crate) use rigid::{CORNERS, Frame, Rigid, Traits, rigid_motion};
+pub(crate) use surface::Touch;
 
 /// What a body is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -126,6 +126,14 @@ impl Body {
     /// Whether it is a rigid body of four particles, which the substep solver moves.
     pub(crate) fn is_rigid(&self) -> bool {
         matches!(self.substance, Substance::Rigid(_))
+    }
+
+    /// What it is besides particles if it is a rigid body.
+    pub(crate) fn rigid(&self) -> Option<&Rigid> {
+        match &self.substance {
+            Substance::Rigid(rigid) => Some(rigid),
+            Substance::Truss { .. } | Substance::Deformable(_) | Substance::HalfSpace(_) => None,
+        }
     }
 
     /// Holds it where it is for good.

@@ -251,13 +251,20 @@ impl RigidBody {
                 within("density", density, 1e-20, 1e20, "a density from 1e-20 to 1e20 (kg/m³)")?;
                 let mass = density * self.shape.volume();
                 if dynamic {
-                    within("density", mass, 1e-20, 1e20, "a density that gives a mass from 1e-20 to 1e20 kg")?;
+                    within(
+                        "density",
+                        mass,
+                        1e-20,
+                        1e20,
+                        "a density that gives a mass from 1e-20 to 1e20 kg",
+                    )?;
                 }
                 mass
             }
         };
-        let mass = if dynamic { mass } else { 1.0 };
-        Ok(Rigid { shape: Arc::clone(&self.shape), mass, traits: self.traits, surface: self.surface })
+        // What does not move by it may be as large as it likes, or without volume.
+        let mass = mass.clamp(1e-20, 1e20);
+        Ok(Rigid { shape: Arc::clone(&self.shape), mass, traits: self.traits })
     }
 
     /// Its frame at the start.
@@ -267,7 +274,7 @@ impl RigidBody {
 }
 
 impl Traits {
-    fn validate(&self) -> Result<(), Error> {
+    pub(crate) fn validate(&self) -> Result<(), Error> {
         within("gravity_scale", self.gravity_scale, -1e6, 1e6, "a number from -1e6 to 1e6")?;
         within("damping.linear", self.linear_damping, 0.0, 1e6, "a rate from 0 to 1e6 (1/s)")?;
         within("damping.angular", self.angular_damping, 0.0, 1e6, "a rate from 0 to 1e6 (1/s)")?;
@@ -281,10 +288,9 @@ pub(crate) struct Rigid {
     /// Shared between bodies; a snapshot stores each once, beside the bodies.
     #[serde(skip, default = "Shape::placeholder")]
     pub(crate) shape: Arc<Shape>,
-    /// In kg; 1 for what is not dynamic.
+    /// In kg; of what is not dynamic what it would be, within 1e-20 to 1e20.
     pub(crate) mass: f32,
     pub(crate) traits: Traits,
-    pub(crate) surface: Surface,
 }
 
 impl Rigid {
@@ -307,9 +313,14 @@ impl Rigid {
         Vec3::new(c.y + c.z, c.z + c.x, c.x + c.y)
     }
 
+    /// Moments of inertia about the principal axes, in kg m²; 0 for what is not solid.
+    pub(crate) fn principal_moments(&self) -> Vec3 {
+        let c = self.shape.second_moments();
+        Vec3::new(c.y + c.z, c.z + c.x, c.x + c.y) * self.mass
+    }
+
     /// Checks a body from untrusted bytes.
     pub(crate) fn validate(&self) -> Result<(), Error> {
-        self.surface.validate()?;
         self.traits.validate()?;
         within("mass", self.mass, 1e-20, 1e20, "a mass from 1e-20 to 1e20 (kg)").map(|_| ())
     }

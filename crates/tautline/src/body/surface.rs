@@ -95,6 +95,14 @@ pub(crate) struct Touch {
     pub(crate) rolling_friction: f32,
 }
 
+impl Touch {
+    pub(crate) fn is_sound(&self) -> bool {
+        [self.friction, self.restitution, self.rolling_friction]
+            .iter()
+            .all(|number| (0.0..=1e12).contains(number))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,11 +1,11 @@
-//! Constructors of solids.
+//! Constructors.
 
 use std::f64::consts::PI;
 
 use glam::{DMat3, DVec3, Quat, Vec3, dvec3};
 
-use super::mass::Mass;
-use super::{Convex, Part, Shape};
+use super::mass::{Frame, Mass};
+use super::{Convex, Decomposition, Part, Shape, Surface};
 use crate::error::{Error, all_coordinates, coordinates, within};
 use crate::mesh::{TriMesh, convex_hull, primitives};
 
@@ -16,9 +16,9 @@ const CYLINDER_SIDES: u32 = 32;
 const THINNEST_SQUARED: f64 = 1e-10;
 
 /// What a part is the hull of, in the shape's own frame, and the radius around it.
-pub(super) struct Core {
-    pub(super) points: Vec<DVec3>,
-    pub(super) radius: f32,
+struct Core {
+    points: Vec<DVec3>,
+    radius: f32,
 }
 
 impl Shape {
@@ -88,6 +88,32 @@ impl Shape {
         Self::solid("points", &mass, &[Core::sharp(&mesh.positions)], mesh)
     }
 
+    /// The inside of a closed mesh, in m. A concave one becomes a union of convex parts that follow it as
+    /// [`Decomposition::default`] says; its mass is that of the mesh, exactly.
+    ///
+    /// # Errors
+    /// [`Error::Mesh`] names the first defect: open, non-manifold, flipped, inside out, crossing itself, without
+    /// volume; or says that it could not be divided. [`Error::OutOfRange`] names a coordinate that is not from −1e9
+    /// to 1e9. [`Error::Invalid`] if it is too thin, or too small, or has more than 65 535 corners.
+    pub fn from_mesh(mesh: &TriMesh) -> Result<Self, Error> {
+        Self::decomposed(mesh, &Decomposition::default())
+    }
+
+    /// As [`Shape::from_mesh`], with parts as close to the mesh, or as few, as you like.
+    ///
+    /// # Errors
+    /// As [`Shape::from_mesh`], and [`Error::OutOfRange`] for `max_parts` and `tolerance`.
+    pub fn decomposed(mesh: &TriMesh, decomposition: &Decomposition) -> Result<Self, Error> {
+        decomposition.validate()?;
+        let mass = Mass::of_mesh(mesh)?;
+        all_coordinates("positions", &mesh.positions)?;
+        let hull = convex_hull(&mesh.positions)?.mesh;
+        let (parts, excess) = decomposition.apply(mesh, &hull)?;
+        let cores: Vec<Core> = parts.iter().map(|corners| Core::sharp(corners)).collect();
+        let shape = Self::solid("mesh", &mass, &cores, mesh.clone())?;
+        Ok(Self { hull_excess: excess as f32, ..shape })
+    }
+
     /// The union of solids, each rotated, then translated (in m). Their masses are added, also where they overlap.
     ///
     /// # Errors
@@ -98,12 +124,18 @@ impl Shape {
             return Err(Error::Invalid { field: "parts".into(), problem: "there are none".into() });
         }
         let (mut masses, mut cores, mut display) = (Vec::new(), Vec::new(), TriMesh::default());
+        let mut excess = 0.0;
         for (number, &(shape, translation, rotation)) in parts.iter().enumerate() {
             coordinates(&format!("parts[{number}].translation"), translation)?;
+            if !shape.is_solid() {
+                let problem = "a triangle mesh or height field has no inside".into();
+                return Err(Error::Invalid { field: format!("parts[{number}].shape"), problem });
+            }
             let expected = "a quaternion with a length near 1";
             within(&format!("parts[{number}].rotation"), rotation.length_squared(), 1e-6, 1e6, expected)?;
             let rotation = DMat3::from_quat(rotation.as_dquat().normalize());
             let place = |point: DVec3| rotation * point + translation.as_dvec3();
+            excess += f64::from(shape.hull_excess) * shape.volume;
             masses.push(shape.mass().moved(rotation, translation.as_dvec3()));
             cores.extend(shape.parts.iter().map(|part| Core {
                 points: part.convex.vertices.iter().map(|&p| place(shape.frame.leave(p))).collect(),
@@ -113,11 +145,49 @@ impl Shape {
             display.positions.extend(shape.positions().iter().map(|p| place(p.as_dvec3()).as_vec3()));
             display.triangles.extend(shape.triangles().iter().map(|t| t.map(|v| first + v)));
         }
-        Self::solid("parts", &Mass::sum(&masses), &cores, display)
+        let mass = Mass::sum(&masses);
+        let shape = Self::solid("parts", &mass, &cores, display)?;
+        Ok(Self { hull_excess: (excess / mass.volume) as f32, ..shape })
+    }
+
+    /// The triangles of a mesh, in m, which may be open. Only their front, from where they run counter-clockwise, is
+    /// solid ground. For fixed and kinematic bodies; a solid is made by [`Shape::from_mesh`].
+    ///
+    /// # Errors
+    /// [`Error::Mesh`] names the first defect; [`Error::OutOfRange`] a coordinate that is not from −1e9 to 1e9.
+    pub fn triangle_mesh(mesh: &TriMesh) -> Result<Self, Error> {
+        Surface::new(mesh.clone()).map(Self::hollow)
+    }
+
+    /// A landscape: `columns` × `rows` (2 – 2049 each) heights (Y, in m) at the corners of square cells of
+    /// `cell_size` (m), row after row; columns along X, rows along Z, its middle at the origin. Every cell is cut
+    /// from its corner of lowest x and z to the opposite one. For fixed and kinematic bodies.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] names the parameter or the height; [`Error::Invalid`] if there are too few heights or
+    /// too many.
+    pub fn height_field(columns: u32, rows: u32, cell_size: f32, heights: &[f32]) -> Result<Self, Error> {
+        Surface::from_heights(columns, rows, cell_size, heights).map(Self::hollow)
+    }
+
+    pub(super) fn hollow(surface: Surface) -> Self {
+        let positions = &surface.mesh().positions;
+        let reach_squared = positions.iter().map(|p| p.length_squared()).fold(0.0, f32::max);
+        Self {
+            parts: Vec::new(),
+            volume: 0.0,
+            second_moments: DVec3::ZERO,
+            frame: Frame::IDENTITY,
+            reach: reach_squared.sqrt(),
+            inner_radius: 0.0,
+            hull_excess: 0.0,
+            display: TriMesh::default(),
+            surface: Some(surface),
+        }
     }
 
     /// A union of parts with this mass; `field` is blamed for what cannot be.
-    pub(super) fn solid(field: &str, mass: &Mass, cores: &[Core], display: TriMesh) -> Result<Self, Error> {
+    fn solid(field: &str, mass: &Mass, cores: &[Core], display: TriMesh) -> Result<Self, Error> {
         let (frame, second_moments) = mass.principal();
         if second_moments.min_element() < THINNEST_SQUARED * second_moments.max_element() {
             let problem = "it is thinner than a 100000th of its length".into();
@@ -128,10 +198,19 @@ impl Shape {
             Convex::around(&points, core.radius).map(Part::from).map_err(|error| of_field(field, error))
         };
         let parts: Vec<Part> = cores.iter().map(part).collect::<Result<_, _>>()?;
-        let reach = parts.iter().map(Part::reach).fold(0.0, f32::max);
+        let (reach, inner_radius) = Part::extent_of(&parts);
         within(field, reach, 1e-6, 4e9, "a size from 1e-6 to 1e9")?;
-        let inner_radius = parts.iter().map(Part::inner_radius).fold(f32::INFINITY, f32::min);
-        Ok(Self { parts, volume: mass.volume, second_moments, frame, reach, inner_radius, display })
+        Ok(Self {
+            parts,
+            volume: mass.volume,
+            second_moments,
+            frame,
+            reach,
+            inner_radius,
+            hull_excess: 0.0,
+            display,
+            surface: None,
+        })
     }
 
     /// As it was given, in its own frame.
@@ -142,7 +221,7 @@ impl Shape {
 
 impl Core {
     /// The hull of points without a radius.
-    pub(super) fn sharp(points: &[Vec3]) -> Self {
+    fn sharp(points: &[Vec3]) -> Self {
         Self { points: points.iter().map(|point| point.as_dvec3()).collect(), radius: 0.0 }
     }
 }

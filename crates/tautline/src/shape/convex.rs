@@ -21,6 +21,8 @@ pub(crate) struct Convex {
     pub(crate) loops: Vec<u16>,
     /// In m.
     pub(crate) radius: f32,
+    /// Half the diagonal of the box around its corners, and the radius, in m.
+    pub(crate) size: f32,
     /// Corners in groups of eight, by coordinate; the last group is filled with its first corner.
     packed_vertices: Vec<[Row; 3]>,
     /// Normals of the faces, alike.
@@ -66,7 +68,10 @@ impl Convex {
         let packed_vertices = pack(&vertices);
         let normals: Vec<Vec3> = faces.iter().map(|face| face.normal).collect();
         let packed_normals = pack(&normals);
-        Self { vertices, faces, loops, radius, packed_vertices, packed_normals }
+        let low = vertices.iter().copied().reduce(Vec3::min).unwrap_or_default();
+        let high = vertices.iter().copied().reduce(Vec3::max).unwrap_or_default();
+        let size = 0.5 * (high - low).length() + radius;
+        Self { vertices, faces, loops, radius, size, packed_vertices, packed_normals }
     }
 
     /// The corner farthest along `direction` (any length), and how far it is in its units. Of several the first.

@@ -38,15 +38,21 @@ impl From<Convex> for Part {
 }
 
 impl Part {
-    /// The greatest distance of one of its points from the centre of mass, in m.
-    pub(super) fn reach(&self) -> f32 {
+    /// Of all together, in m: the greatest distance of a point from the centre of mass, and the radius of a ball that
+    /// fits into each.
+    pub(super) fn extent_of(parts: &[Self]) -> (f32, f32) {
+        let reach = parts.iter().map(Self::reach).fold(0.0, f32::max);
+        (reach, parts.iter().map(Self::inner_radius).fold(f32::INFINITY, f32::min))
+    }
+
+    fn reach(&self) -> f32 {
         let squared = self.convex.vertices.iter().map(|p| p.length_squared()).fold(0.0, f32::max);
         squared.sqrt() + self.convex.radius
     }
 
     /// The radius of a ball within it, in m: the greater of those around the body's centre of mass and around the
     /// mean of its corners.
-    pub(super) fn inner_radius(&self) -> f32 {
+    fn inner_radius(&self) -> f32 {
         let Convex { vertices, faces, radius, .. } = &self.convex;
         if faces.is_empty() {
             return *radius;

@@ -298,6 +298,19 @@ mod tests {
         assert_eq!((convex.vertices.len(), census(&convex)), (8, vec![(4, 6)]));
     }
 
+    /// Around the tolerance it is neither flat nor round.
+    #[test]
+    fn lids_that_bend_by_little_stay_convex() {
+        for bend in [1e-7, 1e-6, 3e-6, 1e-5, 3e-5, 1e-4, 1e-3] {
+            let lid = |k: i32| {
+                let (x, z) = ((k % 21 - 10) as f32 / 10.0, (k / 21 - 10) as f32 / 10.0);
+                Vec3::new(x, -bend * (x * x + z * z), z)
+            };
+            let points: Vec<Vec3> = (0..441).map(lid).chain([Vec3::NEG_Y]).collect();
+            assert!(around(&points).is_sound(), "{bend}");
+        }
+    }
+
     #[test]
     fn too_many_corners_are_refused() {
         let points = primitives::icosphere(1.0, 7).unwrap().positions;
@@ -327,6 +340,7 @@ mod tests {
         fn noisy_hulls_are_closed_and_convex(points in noisy()) {
             if let Ok(convex) = Convex::around(&points, 0.0) {
                 check(&convex, &points);
+                prop_assert!(convex.is_sound());
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use wide::{CmpEq, CmpGt, f32x4};
+use wide::f32x4;
 
 use super::{LANES, Lanes, Row};
 

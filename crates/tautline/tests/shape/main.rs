@@ -1,9 +1,11 @@
 //! Shapes against closed forms and brute force.
 
 mod compounds;
+mod concave;
 mod hulls;
 mod primitives;
 mod refusals;
+mod surfaces;
 
 use glam::{DMat3, DVec3};
 use tautline::{Shape, Vec3};

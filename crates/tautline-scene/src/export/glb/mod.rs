@@ -255,7 +255,7 @@ impl<'a> Document<'a> {
 }
 
 fn is_smooth(track: &Track) -> bool {
-    matches!(track.surface, Surface::Sheet | Surface::Tube)
+    matches!(track.surface, Surface::Sheet | Surface::Round)
 }
 
 fn differences(to: &[Vec3], from: &[Vec3]) -> Vec<Vec3> {

@@ -6,7 +6,6 @@ use glam::Vec3;
 use super::core::{Core, Pair};
 use super::key::{Body, Key};
 use super::reduce::Candidate;
-use super::touch::Touch;
 use crate::simd::Lanes;
 
 /// A face takes part when its normal is within 3.1° of the touching one (cosine).
@@ -50,10 +49,9 @@ pub(super) struct Reference {
 }
 
 impl Reference {
-    /// The face that is nearest to the touching normal, or `None` if none is near.
+    /// The face that is nearest to a direction from A to B, or `None` if none is near.
     #[inline(always)]
-    pub(super) fn choose<L: Lanes, B: Core>(pair: &Pair<B>, touch: &Touch) -> Option<Self> {
-        let normal = touch.normal;
+    pub(super) fn choose<L: Lanes, B: Core>(pair: &Pair<B>, normal: Vec3) -> Option<Self> {
         let (face_a, along_a) = pair.a.facing::<L>(normal);
         let (face_b, along_b) = pair.b.facing::<L>(-pair.b_in_a.direction_inside(normal));
         if along_a.max(along_b) < ALIGNED {
@@ -81,6 +79,12 @@ impl Reference {
 }
 
 impl Polygon {
+    /// The least separation of the candidates, in m; ∞ without any.
+    #[inline(always)]
+    pub(super) fn deepest(&self) -> f32 {
+        self.candidates.iter().fold(f32::INFINITY, |least, candidate| least.min(candidate.separation))
+    }
+
     /// Fills `candidates` with the corners of what the incident face, segment or point has over the reference face
     /// and less than `limit` beyond its plane. Separations are those of the cores.
     #[inline(always)]

@@ -38,6 +38,8 @@ impl Placement {
 /// A polytope, a segment or a point, to be taken with a radius around it. Frames are its own.
 pub(super) trait Core {
     fn radius(&self) -> f32;
+    /// About half its length, in m.
+    fn size(&self) -> f32;
     fn vertices(&self) -> &[Vec3];
     /// The corner farthest along a direction of any length, and how far it is. Of several the first.
     fn support<L: Lanes>(&self, direction: Vec3) -> (usize, f32);
@@ -53,6 +55,10 @@ impl Core for Convex {
     #[inline(always)]
     fn radius(&self) -> f32 {
         self.radius
+    }
+    #[inline(always)]
+    fn size(&self) -> f32 {
+        self.size
     }
     #[inline(always)]
     fn vertices(&self) -> &[Vec3] {
@@ -81,6 +87,11 @@ impl Core for Triangle {
     #[inline(always)]
     fn radius(&self) -> f32 {
         0.0
+    }
+    #[inline(always)]
+    fn size(&self) -> f32 {
+        let [p, q, r] = self.corners;
+        0.5 * (q - p).length_squared().max((r - p).length_squared()).sqrt()
     }
     #[inline(always)]
     fn vertices(&self) -> &[Vec3] {

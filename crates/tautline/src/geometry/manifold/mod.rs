@@ -10,10 +10,12 @@
 mod clip;
 mod core;
 mod exact;
+mod faces;
 mod key;
-mod parallel;
 mod plane;
 mod reduce;
+mod round;
+mod scale;
 mod simplex;
 mod touch;
 mod triangle;
@@ -34,22 +36,18 @@ use clip::Reference;
 use key::{Body, Key};
 use reduce::{Candidate, reduce};
 use simplex::{Simplex, Vertex};
-use touch::{Search, Touch, find};
+use touch::{Search, Start, Touch, find};
 
 /// Most points of a manifold.
 pub(crate) const MAX_POINTS: usize = 4;
-/// How much higher than the touching point, as part of the size, the deepest clipped one may be: more, and the face
-/// that was clipped is not the one that touches.
-const MISSED: f32 = 2e-3;
-/// How much deeper it may be: more, and the face is not what separates best.
-const MISLED: f32 = 1e-2;
 /// What counts as deeper when points are chosen, as part of the size.
 const SLOP: f32 = 1e-4;
 
 /// A place where two bodies touch, or soon will.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct ManifoldPoint {
-    /// On the surface of A, in A's frame, in m.
+    /// On the surface of A, in A's frame, in m. (Of a rounded edge at an angle to the face it touches: the radius from
+    /// its core along the normal, and so a little within the surface.)
     pub(crate) on_a: Vec3,
     /// On the surface of B, in B's frame, in m: `separation` from the former, along the normal.
     pub(crate) on_b: Vec3,
@@ -140,23 +138,33 @@ pub(crate) fn collide<L: Lanes>(
     margin: f32,
 ) -> Manifold {
     let pair = Pair { a, b, b_in_a };
-    let start = b_in_a.translation.normalize_or(Vec3::Y);
-    let Some(touch) = find::<L, _>(&pair, (memory, scratch), start, margin, Search::Global) else {
+    let axis = b_in_a.translation.normalize_or(Vec3::Y);
+    if a.vertices.len() == 1 && b.vertices.len() == 1 {
+        return round::balls(&pair, memory, axis, margin);
+    }
+    let Some(start) = Start::new::<L, _>(&pair, memory, axis, margin) else { return Manifold::default() };
+    let is_round = a.vertices.len() == 1 || b.vertices.len() == 1;
+    if !is_round
+        && !start.is_new
+        && let Some(reference) = Reference::choose::<L, _>(&pair, memory.axis)
+        && let Some(manifold) =
+            faces::remembered::<L, _>(&pair, (memory, scratch), &reference, &start, margin, Search::Global)
+    {
+        return manifold;
+    }
+    let Some(touch) = find::<L, _>(&pair, (memory, scratch), &start, margin, Search::Global) else {
         return Manifold::default();
     };
-    let is_round = a.vertices.len() == 1 || b.vertices.len() == 1;
     let limit = margin + pair.radii();
     if is_round {
-        return Manifold::single(&pair, &touch);
-    }
-    let candidates = &mut scratch.polygon.candidates;
-    if a.vertices.len() == 2 && b.vertices.len() == 2 {
-        parallel::candidates(&pair, &touch, limit, candidates);
-        return Manifold::of_candidates(&pair, touch.normal, candidates, &touch);
-    }
-    match Reference::choose::<L, _>(&pair, &touch) {
-        Some(reference) => Manifold::of_faces::<L, _>(&pair, &touch, &reference, limit, scratch),
-        None => Manifold::single(&pair, &touch),
+        Manifold::single(&pair, &touch)
+    } else if a.vertices.len() == 2 && b.vertices.len() == 2 {
+        round::capsules(&pair, &touch, limit, scratch)
+    } else {
+        match Reference::choose::<L, _>(&pair, touch.normal) {
+            Some(reference) => faces::touching::<L, _>(&pair, &touch, &reference, limit, scratch),
+            None => Manifold::single(&pair, &touch),
+        }
     }
 }
 
@@ -169,41 +177,11 @@ impl Manifold {
         manifold
     }
 
-    /// By clipping against the reference face; if that does not describe the contact, the nearest points.
+    /// The best four.
     #[inline(always)]
-    fn of_faces<L: Lanes, B: Core>(
-        pair: &Pair<B>,
-        touch: &Touch,
-        reference: &Reference,
-        limit: f32,
-        scratch: &mut Scratch,
-    ) -> Self {
-        let polygon = &mut scratch.polygon;
-        polygon.clip::<L, B>(pair, reference, limit);
-        let candidates = &mut polygon.candidates;
-        let deepest = candidates.iter().fold(f32::INFINITY, |least, point| least.min(point.separation));
-        if candidates.is_empty() || deepest < touch.separation - MISLED * touch.size {
-            return Self::single(pair, touch);
-        }
-        if deepest > touch.separation + MISSED * touch.size {
-            candidates.push(touch.candidate());
-        }
-        Self::of_candidates(pair, reference.normal(), candidates, touch)
-    }
-
-    /// The best four, or the nearest points if there are none.
-    #[inline(always)]
-    fn of_candidates<B: Core>(
-        pair: &Pair<B>,
-        normal: Vec3,
-        candidates: &mut [Candidate],
-        touch: &Touch,
-    ) -> Self {
-        if candidates.is_empty() {
-            return Self::single(pair, touch);
-        }
+    fn of_candidates<B: Core>(pair: &Pair<B>, normal: Vec3, candidates: &mut [Candidate], size: f32) -> Self {
         let mut manifold = Self { normal, ..Self::default() };
-        let count = reduce(candidates, normal, SLOP * touch.size);
+        let count = reduce(candidates, normal, SLOP * size);
         for candidate in &candidates[..count] {
             manifold.push(pair, candidate);
         }

@@ -17,21 +17,24 @@ pub(super) struct Candidate {
 /// A later candidate has to be better by this part: rounding does not make the choice wander.
 const BETTER: f32 = 1.001;
 
-/// Moves the deepest point, the one farthest from it, the one that makes the largest triangle with both, and the one
-/// that adds most to that on its other sides to the front, and returns how many there are. Ties go to the
-/// first. `slop`: a point counts as deeper only by more, in m.
+/// Moves the four to the front, and returns how many there are: of the points less than `slop` m above the deepest
+/// the one farthest from the middle, the one farthest from it, the one that makes the largest triangle with both, and
+/// the one farthest beyond one of the triangle's sides. Ties go to the first.
 #[inline(always)]
 pub(super) fn reduce(points: &mut [Candidate], normal: Vec3, slop: f32) -> usize {
     if points.len() <= 4 {
         return points.len();
     }
-    let mut deepest = 0;
-    for (i, point) in points.iter().enumerate() {
-        if point.separation < points[deepest].separation - slop {
-            deepest = i;
+    let deepest = points.iter().fold(f32::INFINITY, |least, point| least.min(point.separation));
+    let middle = points.iter().map(|point| point.on_a).sum::<Vec3>() / points.len() as f32;
+    let (mut start, mut largest) = (0, -1.0);
+    for (i, point) in points.iter().enumerate().filter(|(_, point)| point.separation <= deepest + slop) {
+        let squared = (point.on_a - middle).length_squared();
+        if squared > largest * BETTER {
+            (start, largest) = (i, squared);
         }
     }
-    points.swap(0, deepest);
+    points.swap(0, start);
     let first = points[0].on_a;
     if !bring_best(points, 1, |p| (p - first).length_squared()) {
         return 1;

@@ -14,16 +14,11 @@ use glam::Vec3;
 use super::Memory;
 use super::core::{Core, Pair};
 use super::exact::{self, Scratch};
-use super::simplex::{Simplex, Vertex};
+use super::scale::Scale;
+use super::simplex::Simplex;
 use super::walk::{Walk, walk};
 use crate::simd::Lanes;
 
-/// Cores closer than this part of the smaller one's size are shifted apart …
-const NEAR: f32 = 1e-3;
-/// … to this part.
-const APART: f32 = 1e-2;
-/// The least shift as part of the larger coordinates: what f32 needs to tell directions.
-const TELLABLE: f32 = 2e-4;
 /// Cosine of the turn after which an axis rests: 0.26°.
 const RESTING: f32 = 0.999_99;
 /// Most turns of the axis.
@@ -67,32 +62,6 @@ impl Touch {
     }
 }
 
-/// Sizes near the place of contact, in m: of the smaller body, and of coordinates.
-#[derive(Clone, Copy)]
-struct Scale {
-    size: f32,
-    coordinates: f32,
-}
-
-impl Scale {
-    #[inline(always)]
-    fn at<B: Core>(pair: &Pair<B>, [a, b]: [u16; 2]) -> Self {
-        let size_a = pair.a.vertices[usize::from(a)].length() + pair.a.radius;
-        let size_b = pair.b.vertices()[usize::from(b)].length() + pair.b.radius();
-        let size = if size_a < size_b { size_a } else { size_b };
-        Self { size, coordinates: size_a + size_b }
-    }
-
-    /// By how much a pair at this separation has to be shifted, in m.
-    #[inline(always)]
-    fn shift(self, separation: f32) -> f32 {
-        if separation > NEAR * self.size && separation > TELLABLE * self.coordinates {
-            return 0.0;
-        }
-        (APART * self.size).max(TELLABLE * self.coordinates) - separation
-    }
-}
-
 /// Which answer to a deep overlap is wanted.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Search {
@@ -102,37 +71,81 @@ pub(super) enum Search {
     Local,
 }
 
+/// What the remembered axis tells of a pair that may touch.
+pub(super) struct Start {
+    /// Whether nothing was remembered.
+    pub(super) is_new: bool,
+    pub(super) scale: Scale,
+    /// The foremost corners along the axis, and how far the cores are apart along it, in m.
+    support: [u16; 2],
+    separation: f32,
+}
+
+impl Start {
+    /// `None` if the axis shows the surfaces to be further apart than `margin`. `axis`, unit, is that of a pair
+    /// without memory.
+    #[inline(always)]
+    pub(super) fn new<L: Lanes, B: Core>(
+        pair: &Pair<B>,
+        memory: &mut Memory,
+        axis: Vec3,
+        margin: f32,
+    ) -> Option<Self> {
+        let is_new = !memory.is_usable(pair);
+        if is_new {
+            *memory = Memory { axis, ..Memory::default() };
+        }
+        let (support, separation) = pair.support::<L>(memory.axis);
+        memory.separation = separation - pair.radii();
+        // Not `>`: what is not a number touches nothing.
+        let may_touch = memory.separation <= margin;
+        may_touch.then(|| Self { is_new, scale: Scale::at(pair, support), support, separation })
+    }
+
+    /// Where the remembered axis does not separate the cores: what starts from another one, if that is better.
+    #[inline(always)]
+    pub(super) fn or_along<L: Lanes, B: Core>(
+        self,
+        pair: &Pair<B>,
+        memory: &mut Memory,
+        axis: Vec3,
+        margin: f32,
+    ) -> Option<Self> {
+        if self.separation > 0.0 || pair.support::<L>(axis).1 <= self.separation {
+            return Some(self);
+        }
+        *memory = Memory::default();
+        Self::new::<L, B>(pair, memory, axis, margin)
+    }
+}
+
 /// Where the surfaces are nearest, or `None` if they are further apart than `margin`. Both ways the memory is
-/// brought up to date. `start`: the axis of a pair without memory, unit.
+/// brought up to date.
 #[inline(always)]
 pub(super) fn find<L: Lanes, B: Core>(
     pair: &Pair<B>,
     (memory, scratch): (&mut Memory, &mut Scratch),
-    start: Vec3,
+    start: &Start,
     margin: f32,
     search: Search,
 ) -> Option<Touch> {
     let radii = pair.radii();
-    let is_new = !memory.is_usable(pair);
-    if is_new {
-        *memory = Memory { axis: start, ..Memory::default() };
-    }
-    let (support, separation) = pair.support::<L>(memory.axis);
-    memory.separation = separation - radii;
-    if memory.separation > margin {
-        return None;
-    }
-    let scale = Scale::at(pair, support);
-    let found = match climb::<L, B>(pair, memory, (support, separation), margin, scale) {
+    let mut exact = |axis| exact::touch(pair, scratch, axis, start.scale.size);
+    let found = match climb::<L, B>(pair, memory, start, margin) {
         Climb::Beyond => return None,
+        Climb::Failed => {
+            let touch = exact(memory.axis);
+            let leads_elsewhere = touch.separation <= 0.0 && search == Search::Local;
+            if leads_elsewhere { Touch::foremost(pair, memory.axis, start) } else { touch }
+        }
         Climb::Touch(local) => {
-            if search == Search::Global && is_deep::<L, B>(pair, &local, is_new) {
-                shallower(local, exact::touch(pair, scratch, memory.axis, scale.size))
+            let Touch { normal, separation, size, .. } = local;
+            if search == Search::Global && is_deep::<L, B>(pair, normal, separation, size, start.is_new) {
+                shallower(local, exact(memory.axis))
             } else {
                 local
             }
         }
-        Climb::Failed => exact::touch(pair, scratch, memory.axis, scale.size),
     };
     memory.keep(&found, radii);
     (found.separation - radii <= margin).then_some(found)
@@ -145,16 +158,11 @@ enum Climb {
     Failed,
 }
 
-/// Shifted GJK from the remembered axis, along which the cores are `separation` apart with `support` in front.
+/// Shifted GJK from the remembered axis.
 #[inline(always)]
-fn climb<L: Lanes, B: Core>(
-    pair: &Pair<B>,
-    memory: &mut Memory,
-    (support, mut separation): ([u16; 2], f32),
-    margin: f32,
-    scale: Scale,
-) -> Climb {
+fn climb<L: Lanes, B: Core>(pair: &Pair<B>, memory: &mut Memory, start: &Start, margin: f32) -> Climb {
     let radii = pair.radii();
+    let &Start { scale, support, mut separation, .. } = start;
     let mut axis = memory.axis;
     let mut simplex = memory.simplex(support);
     for _ in 0..ROUNDS {
@@ -166,7 +174,7 @@ fn climb<L: Lanes, B: Core>(
                 memory.separation = shifted - shift * beyond.dot(axis) - radii;
                 return Climb::Beyond;
             }
-            Walk::Closest { point, simplex: reduced, .. } => {
+            Walk::Closest { point, simplex: reduced } => {
                 let length = point.length();
                 let normal = point / length;
                 let turn = normal.dot(axis);
@@ -180,18 +188,23 @@ fn climb<L: Lanes, B: Core>(
     Climb::Failed
 }
 
-/// Whether the way out may be shorter elsewhere.
+/// Whether the way out of an overlap, `-separation` deep along `normal`, may be shorter elsewhere.
 #[inline(always)]
-fn is_deep<L: Lanes, B: Core>(pair: &Pair<B>, touch: &Touch, is_new: bool) -> bool {
-    let depth = -touch.separation;
-    if depth <= SHALLOW * touch.size {
-        return depth > 0.0 && is_new;
+pub(super) fn is_deep<L: Lanes, B: Core>(
+    pair: &Pair<B>,
+    normal: Vec3,
+    separation: f32,
+    size: f32,
+    is_new: bool,
+) -> bool {
+    if separation >= -SHALLOW * size {
+        return is_new && separation < 0.0;
     }
-    let (_, averted) = pair.support::<L>(-touch.normal);
-    let width_a = pair.a.support::<L>(touch.normal).1 + pair.a.support::<L>(-touch.normal).1;
+    let (_, averted) = pair.support::<L>(-normal);
+    let width_a = pair.a.support::<L>(normal).1 + pair.a.support::<L>(-normal).1;
     // Minus the separations along both directions is the sum of both widths.
-    let width_b = depth - averted - width_a;
-    is_new || depth > DEEP * width_a.min(width_b)
+    let width_b = -separation - averted - width_a;
+    is_new || separation < -DEEP * width_a.min(width_b)
 }
 
 /// The exact answer only where it is better: of two ways out alike, the pair keeps to the one it came.
@@ -200,6 +213,20 @@ fn shallower(local: Touch, exact: Touch) -> Touch {
 }
 
 impl Touch {
+    /// Of the corners foremost along an axis.
+    fn foremost<B: Core>(pair: &Pair<B>, axis: Vec3, start: &Start) -> Self {
+        let on_a = pair.point_of_a(start.support[0]);
+        Self {
+            normal: axis,
+            separation: start.separation,
+            on_a,
+            on_b: on_a + axis * start.separation,
+            pairs: [start.support; 3],
+            count: 1,
+            size: start.scale.size,
+        }
+    }
+
     /// From a simplex and its weights, of a pair that may have been shifted.
     #[inline(always)]
     fn new<B: Core>(pair: &Pair<B>, normal: Vec3, separation: f32, simplex: &Simplex, size: f32) -> Self {

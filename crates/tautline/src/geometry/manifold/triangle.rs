@@ -4,11 +4,13 @@ use glam::Vec3;
 
 use super::clip::{ALIGNED, Reference};
 use super::core::{Pair, Placement};
-use super::touch::{Search, Touch, find};
-use super::{Manifold, Memory, Scratch};
+use super::touch::{Search, Start, Touch, find};
+use super::{Manifold, Memory, Scratch, faces};
 use crate::shape::Convex;
 use crate::simd::Lanes;
 
+/// Cosine of the tilt from which on a normal is not the face's: 0.08°.
+const STRAIGHT: f32 = 0.999_999;
 /// How near to an edge, in barycentric coordinates, a point lies on it.
 const ON_EDGE: f32 = 1e-3;
 
@@ -39,32 +41,45 @@ pub(crate) fn collide_triangle<L: Lanes>(
     margin: f32,
 ) -> Manifold {
     let pair = Pair { a, b: triangle, b_in_a: triangle_in_a };
-    let inward = -(triangle_in_a.rotation * triangle.normal);
-    let Some(mut touch) = find::<L, _>(&pair, (memory, scratch), inward, margin, Search::Local) else {
+    let front = Reference::of_b(&pair, 0);
+    let inward = front.normal();
+    let start = Start::new::<L, _>(&pair, memory, inward, margin);
+    let Some(start) = start.and_then(|start| start.or_along::<L, _>(&pair, memory, inward, margin)) else {
+        return Manifold::default();
+    };
+    let is_behind = pair.support::<L>(-inward).1 > pair.radii();
+    if is_behind {
+        return Manifold::default();
+    }
+    let is_round = a.vertices.len() == 1;
+    if !is_round
+        && memory.axis.dot(inward) > ALIGNED
+        && let Some(manifold) =
+            faces::remembered::<L, _>(&pair, (memory, scratch), &front, &start, margin, Search::Local)
+    {
+        return manifold;
+    }
+    let Some(mut touch) = find::<L, _>(&pair, (memory, scratch), &start, margin, Search::Local) else {
         return Manifold::default();
     };
     let along = touch.normal.dot(inward);
     if along <= 0.0 {
         return Manifold::default();
     }
-    let limit = margin + pair.radii();
-    let is_round = a.vertices.len() == 1;
-    if along < ALIGNED && !triangle.is_active_at(triangle_in_a.point_inside(touch.on_b)) {
-        touch.normal = inward;
-        touch.on_b = touch.on_a + inward * touch.separation;
-    } else if along < ALIGNED || is_round {
-        return match Reference::choose::<L, _>(&pair, &touch) {
-            Some(reference) if !is_round => {
-                Manifold::of_faces::<L, _>(&pair, &touch, &reference, limit, scratch)
-            }
-            _ => Manifold::single(&pair, &touch),
-        };
+    let is_tilted = along < STRAIGHT;
+    let stands_out = is_tilted && triangle.is_active_at(triangle_in_a.point_inside(touch.on_b));
+    if is_tilted && !stands_out {
+        // What is apart stays as far apart, or the plane would reach beyond the triangle.
+        let separation = touch.separation.max(pair.support::<L>(inward).1);
+        touch = Touch { normal: inward, separation, on_b: touch.on_a + inward * separation, ..touch };
     }
-    if is_round {
-        return Manifold::single(&pair, &touch);
+    let reference = if stands_out { Reference::choose::<L, _>(&pair, touch.normal) } else { Some(front) };
+    match reference {
+        Some(reference) if !is_round => {
+            faces::touching::<L, _>(&pair, &touch, &reference, margin + pair.radii(), scratch)
+        }
+        _ => Manifold::single(&pair, &touch),
     }
-    let front = Reference::of_b(&pair, 0);
-    Manifold::of_faces::<L, _>(&pair, &touch, &front, limit, scratch)
 }
 
 impl Triangle {

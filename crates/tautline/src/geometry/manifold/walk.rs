@@ -8,7 +8,7 @@ use super::simplex::{Simplex, Vertex};
 use crate::simd::Lanes;
 
 /// More than any pair needs in exact arithmetic; beyond it, rounding is at work.
-pub(super) const MAX_ITERATIONS: u32 = 24;
+const MAX_ITERATIONS: u32 = 24;
 /// The closest point is accepted when the true one is nearer by at most this part of the coordinates: a few
 /// roundings of f32.
 const GAP: f32 = 1e-6;
@@ -25,7 +25,7 @@ pub(super) enum Walk {
         separation: f32,
     },
     /// The point of the shifted B ⊖ A closest to the origin, in m, and the simplex that holds it.
-    Closest { point: Vec3, simplex: Simplex, iterations: u32 },
+    Closest { point: Vec3, simplex: Simplex },
     /// Rounding stopped it: neither apart nor touching is proved.
     Failed,
 }
@@ -47,9 +47,7 @@ pub(super) fn walk<L: Lanes, B: Core>(
     let mut best: Option<(Vec3, Simplex)> = None;
     let mut least_squared = f32::INFINITY;
     let mut gap = f32::INFINITY;
-    let mut iterations = 0;
-    while iterations < MAX_ITERATIONS {
-        iterations += 1;
+    for _ in 0..MAX_ITERATIONS {
         let Some(point) = simplex.reduce() else { break };
         let squared = point.length_squared();
         if squared >= least_squared || squared <= 0.0 {
@@ -63,7 +61,7 @@ pub(super) fn walk<L: Lanes, B: Core>(
         }
         gap = length - lower_bound;
         if gap <= GAP * scale {
-            return Walk::Closest { point, simplex, iterations };
+            return Walk::Closest { point, simplex };
         }
         (best, least_squared) = (Some((point, simplex)), squared);
         if simplex.contains(vertex) {
@@ -72,7 +70,7 @@ pub(super) fn walk<L: Lanes, B: Core>(
         simplex.push(Vertex { pair: vertex, point: difference(vertex) });
     }
     match best {
-        Some((point, simplex)) if gap <= ACCEPTED_GAP * scale => Walk::Closest { point, simplex, iterations },
+        Some((point, simplex)) if gap <= ACCEPTED_GAP * scale => Walk::Closest { point, simplex },
         _ => Walk::Failed,
     }
 }

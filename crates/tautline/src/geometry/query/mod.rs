@@ -7,9 +7,7 @@ mod cast;
 mod closest;
 mod ray;
 
-pub(crate) use cast::{
-    Motion, Rounded, Separation, Touch, first_touch, first_touch_of_half_space, separation,
-};
+pub(crate) use cast::{Motion, Rounded, Touch, first_touch, first_touch_of_half_space, separation};
 pub(crate) use closest::{Closest, closest_to_convex, closest_to_half_space, closest_to_triangle};
 pub(crate) use ray::{Ray, RayHit, ray_to_convex, ray_to_half_space, ray_to_triangle};
 

@@ -71,7 +71,9 @@ impl Task<'_> {
                 let order = list.as_deref().map_or(Order::AsBuilt, Order::Listed);
                 relax_sticks(&mut self.particles, truss.sticks(), order, settings)
             }
-            Substance::Deformable(deformable) => relax_deformable(&mut self.particles, deformable, settings, h),
+            Substance::Deformable(deformable) => {
+                relax_deformable(&mut self.particles, deformable, settings, h)
+            }
             Substance::Rigid(_) | Substance::HalfSpace(_) => Counts::default(),
         };
     }

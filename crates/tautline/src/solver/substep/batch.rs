@@ -42,6 +42,14 @@ pub(super) struct Batch {
     pub(super) points: u32,
 }
 
+impl Batch {
+    /// Its points among all.
+    #[inline(always)]
+    pub(super) fn range(&self) -> std::ops::Range<usize> {
+        self.first as usize..(self.first + self.points) as usize
+    }
+}
+
 /// What the points of a batch share.
 #[derive(Debug, Clone, Default)]
 pub(super) struct HeaderRows {
@@ -49,6 +57,9 @@ pub(super) struct HeaderRows {
     pub(super) normal: Rows3,
     pub(super) tangents: [Rows3; 2],
     pub(super) friction: Row,
+    pub(super) restitution: Row,
+    /// In m.
+    pub(super) rolling_friction: Row,
 }
 
 /// One point of each of eight pairs. A Jacobian is √I⁻¹ (l × Rᵀd): see `block`.
@@ -66,10 +77,10 @@ pub(super) struct PointRows {
     /// Multipliers, in kg m: the impulse times the substep.
     pub(super) normal_impulse: Row,
     pub(super) tangent_impulses: [Row; 2],
-    /// How far the anchors have drifted apart along the tangents when the step began, in m.
+    /// How far the anchors have drifted apart along the tangents, in m.
     pub(super) drift: [Row; 2],
-    /// A mask: friction was at its limit.
-    pub(super) slides: Row,
+    /// How far they have been moved in this step to follow what slides, in m.
+    pub(super) slid: [Row; 2],
 }
 
 /// Makes batches of the pairs; `first_batch` tells of each pair's batch and lane.

@@ -9,6 +9,7 @@
 //! the frame of the step's start. In these variables the inverse mass matrix is diag(1/m, 1), so that one Jacobian
 //! √I⁻¹ (l × Rᵀd) both reads a velocity and applies an impulse. The last number is 0 for what no impulse turns.
 
+use super::rigidity;
 use crate::simd::{LANES, Lanes, Matrix3x8, Row, Vec3x8};
 
 /// Three rows: all x, all y, all z.
@@ -40,8 +41,11 @@ pub(super) struct Constants {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Block {
     pub(super) constants: Constants,
-    /// Centres of mass, in m.
+    /// Centres of mass when the step began, in m.
     pub(super) center: Rows3,
+    /// How far they have moved since the step began, in m. By itself, so that it is not rounded to what is left of
+    /// a centre far from the origin.
+    pub(super) shift: Rows3,
     /// Axes: the columns of the rotation R from the principal frame.
     pub(super) axes: [Rows3; 3],
     /// Axes when the step began, R₀.
@@ -69,6 +73,22 @@ pub(super) fn particles<L: Lanes>(rows: &ParticleRows) -> [Vec3x8<L>; 4] {
     vectors
 }
 
+/// The rotation, in the body's frame, that is in the displacements of four particles.
+#[inline(always)]
+fn spin_of<L: Lanes>(
+    displacements: &[Vec3x8<L>; 4],
+    arms: &[Vec3x8<L>; 4],
+    axes: &Matrix3x8<L>,
+    inertia: Vec3x8<L>,
+) -> Vec3x8<L> {
+    let mut moment = Vec3x8::zero();
+    for (displacement, arm) in displacements.iter().zip(arms) {
+        moment = moment + arm.cross(*displacement);
+    }
+    let momentum = axes.apply_transposed(moment * L::splat(0.25));
+    Vec3x8::new(momentum.x / inertia.x, momentum.y / inertia.y, momentum.z / inertia.z)
+}
+
 #[inline(always)]
 fn store_particle<L: Lanes>(vector: Vec3x8<L>, rows: &mut [Row]) {
     vector.x.store(&mut rows[0]);
@@ -91,19 +111,23 @@ impl Block {
         let center = (front + back) * quarter;
         let (first, second) = (front - back, (x[0] - x[1]) + (x[2] - x[3]));
         // The largest two of the axes, since those are the best known: moments are in descending order.
-        let e0 = first * (L::splat(1.0) / first.length());
+        let e0 = rigidity::unit(first * (L::splat(1.0) / first.length()));
         let e2 = e0.cross(second);
-        let e2 = e2 * (L::splat(1.0) / e2.length());
+        let e2 = rigidity::unit(e2 * (L::splat(1.0) / e2.length()));
         let axes = Matrix3x8([e0, e2.cross(e0), e2]);
         let linear = ((d[0] + d[1]) + (d[2] + d[3])) * quarter;
-        let mut moment = Vec3x8::zero();
-        for k in 0..4 {
-            moment = moment + (x[k] - center).cross(d[k]);
-        }
+        let arms = [x[0] - center, x[1] - center, x[2] - center, x[3] - center];
         let inertia = Vec3x8::<L>::load(&self.constants.inertia);
-        let momentum = axes.apply_transposed(moment * quarter);
-        let angular = Vec3x8::new(momentum.x / inertia.x, momentum.y / inertia.y, momentum.z / inertia.z);
+        let first = spin_of(&d, &arms, &axes, inertia);
+        // Once more for what that leaves: the inertia's rounding would be in every step's rotation alike.
+        let turn = axes.apply(first);
+        let mut rest = d;
+        for (rest, arm) in rest.iter_mut().zip(arms) {
+            *rest = *rest - linear - turn.cross(arm);
+        }
+        let angular = first + spin_of(&rest, &arms, &axes, inertia);
         center.store(&mut self.center);
+        Vec3x8::<L>::zero().store(&mut self.shift);
         axes.store(&mut self.axes);
         axes.store(&mut self.start_axes);
         Motion { linear: linear * scale, angular: angular * scale }
@@ -119,18 +143,19 @@ impl Block {
     #[inline(always)]
     pub(super) fn write<L: Lanes>(
         &self,
-        motion: Motion<L>,
+        columns: &[L; LANES],
         positions: &mut ParticleRows,
         displacements: &mut ParticleRows,
     ) {
-        let center = Vec3x8::<L>::load(&self.center);
+        let center = Vec3x8::<L>::load(&self.center) + Vec3x8::load(&self.shift);
         let axes = Matrix3x8::<L>::load(&self.axes);
         let spread = Vec3x8::<L>::load(&self.constants.spread);
         let (e0, e1, e2) = (axes.0[0] * spread.x, axes.0[1] * spread.y, axes.0[2] * spread.z);
-        let turn = axes.apply(motion.angular);
+        let linear = Vec3x8::new(columns[0], columns[1], columns[2]);
+        let turn = self.turn(columns);
         let arms = [e0 + e1 + e2, e0 - e1 - e2, e1 - e0 - e2, e2 - e0 - e1];
         for (k, arm) in arms.into_iter().enumerate() {
-            let (x, d) = (center + arm, motion.linear + turn.cross(arm));
+            let (x, d) = (center + arm, linear + turn.cross(arm));
             store_particle(x, &mut positions[3 * k..]);
             store_particle(d, &mut displacements[3 * k..]);
         }
@@ -145,14 +170,19 @@ impl Block {
         [v.x, v.y, v.z, mass, scaled.x, scaled.y, scaled.z, response]
     }
 
+    /// The rotation over a substep, in the world's frame, of the bodies with these rows.
+    #[inline(always)]
+    fn turn<L: Lanes>(&self, columns: &[L; LANES]) -> Vec3x8<L> {
+        // Divided, not multiplied by the inverse: what is read and written in every step would be rounded alike in all.
+        let root = Vec3x8::<L>::load(&self.constants.root_inertia);
+        let in_start = Vec3x8::new(columns[4] / root.x, columns[5] / root.y, columns[6] / root.z);
+        Matrix3x8::<L>::load(&self.start_axes).apply(in_start)
+    }
+
     /// How the bodies with these rows move, turned from the frame of the step's start to theirs of now.
     #[inline(always)]
     pub(super) fn motion<L: Lanes>(&self, columns: &[L; LANES]) -> Motion<L> {
-        let scaled = Vec3x8::new(columns[4], columns[5], columns[6]);
-        let in_start = scaled.scale(Vec3x8::load(&self.constants.inverse_root_inertia));
-        let start = Matrix3x8::<L>::load(&self.start_axes);
-        let now = Matrix3x8::<L>::load(&self.axes);
-        let angular = now.apply_transposed(start.apply(in_start));
+        let angular = self.axes_now().apply_transposed(self.turn(columns));
         Motion { linear: Vec3x8::new(columns[0], columns[1], columns[2]), angular }
     }
 

@@ -3,12 +3,13 @@
 use glam::{Mat3, Vec3};
 
 use super::RigidSolver;
-use super::lineup::{NOBODY, Role};
+use super::lineup::NOBODY;
 use super::pairs::Key;
 use crate::body::{Body, CollisionGroups, HalfSpace, Motion, Rigid, Substance};
 use crate::collision::Aabb;
 use crate::collision::bvh::overlapping_pairs;
 use crate::settings::Settings;
+use crate::shape::{Part, Surface};
 use crate::simd::LANES;
 
 /// By how much more than it needs a body's box is larger, as a share of its reach.
@@ -56,14 +57,19 @@ impl RigidSolver {
     /// The box of a body that lets it move as it does for a while.
     fn enclose(&self, body: u32, place: usize, rigid: &Rigid) -> Boxed {
         let (block, lane) = (&self.crew.blocks[place / LANES], place % LANES);
-        let column = |rows: &super::block::Rows3| Vec3::new(rows[0].0[lane], rows[1].0[lane], rows[2].0[lane]);
+        let column =
+            |rows: &super::block::Rows3| Vec3::new(rows[0].0[lane], rows[1].0[lane], rows[2].0[lane]);
         let (center, axes) = (column(&block.center), block.axes.each_ref().map(column));
         let axes = Mat3::from_cols(axes[0], axes[1], axes[2]);
         let need = self.crew.tracks[place / LANES].need.0[lane];
         let room = need * (1.0 + STEPS_AHEAD) + SKIN * rigid.shape.reach();
         let parts = rigid.shape.parts().iter().map(|part| world_box(center, axes, part.low, part.high));
         let nothing = Aabb { low: Vec3::INFINITY, high: Vec3::NEG_INFINITY };
-        let bounds = parts.fold(nothing, |sum, part| Aabb { low: sum.low.min(part.low), high: sum.high.max(part.high) });
+        let surface = rigid.shape.surface().map(|surface| surface.bounds());
+        let surface = surface.map(|(low, high)| world_box(center, axes, low, high));
+        let bounds = parts
+            .chain(surface)
+            .fold(nothing, |sum, part| Aabb { low: sum.low.min(part.low), high: sum.high.max(part.high) });
         Boxed { body, room, center, axes, bounds: grown(bounds, room) }
     }
 
@@ -90,11 +96,15 @@ impl RigidSolver {
     }
 }
 
-/// All pairs of parts whose boxes overlap.
+/// All pairs of parts, or of parts and triangles, whose boxes overlap.
 fn pair_parts((a, rigid_a): (&Boxed, &Rigid), (b, rigid_b): (&Boxed, &Rigid), keys: &mut Vec<Key>) {
     let (parts_a, parts_b) = (rigid_a.shape.parts(), rigid_b.shape.parts());
     let (centers, reach) = (a.center.distance(b.center), rigid_a.shape.reach() + rigid_b.shape.reach());
     if centers > reach + a.room + b.room {
+        return;
+    }
+    if let Some(surface) = rigid_b.shape.surface() {
+        pair_with_triangles((a, parts_a), (b, surface), keys);
         return;
     }
     if parts_a.len() == 1 && parts_b.len() == 1 {
@@ -112,6 +122,19 @@ fn pair_parts((a, rigid_a): (&Boxed, &Rigid), (b, rigid_b): (&Boxed, &Rigid), ke
     }
 }
 
+/// All triangles of a surface near the parts of a body.
+fn pair_with_triangles((a, parts): (&Boxed, &[Part]), (b, surface): (&Boxed, &Surface), keys: &mut Vec<Key>) {
+    let mut triangles = Vec::new();
+    let to_b = b.axes.transpose();
+    let (center, axes) = (to_b * (a.center - b.center), to_b * a.axes);
+    for (part_a, part) in (0..).zip(parts) {
+        let near = grown(world_box(center, axes, part.low, part.high), a.room + b.room);
+        triangles.clear();
+        surface.triangles_in(near.low, near.high, &mut triangles);
+        keys.extend(triangles.iter().map(|&part_b| Key { a: a.body, b: b.body, part_a, part_b }));
+    }
+}
+
 /// Every part that reaches over a plane.
 fn pair_with_half_spaces(bodies: &[Body], boxed: &[Boxed], keys: &mut Vec<Key>) {
     let walls: Vec<(u32, &HalfSpace)> = (0..)
@@ -123,7 +146,9 @@ fn pair_with_half_spaces(bodies: &[Body], boxed: &[Boxed], keys: &mut Vec<Key>) 
         .collect();
     for entry in boxed {
         let Substance::Rigid(rigid) = &bodies[entry.body as usize].substance else { continue };
-        if rigid.traits.motion != Motion::Dynamic || !rigid.traits.groups.collide_with(CollisionGroups::default()) {
+        if rigid.traits.motion != Motion::Dynamic
+            || !rigid.traits.groups.collide_with(CollisionGroups::default())
+        {
             continue;
         }
         for &(wall_body, wall) in &walls {

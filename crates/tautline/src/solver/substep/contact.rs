@@ -68,27 +68,44 @@ pub(super) enum Pass {
 
 /// The velocities of eight bodies.
 #[derive(Clone, Copy)]
-struct Body<L> {
+pub(super) struct Body<L> {
     linear: Vec3x8<L>,
     inverse_mass: L,
-    angular: Vec3x8<L>,
-    response: L,
+    pub(super) angular: Vec3x8<L>,
+    pub(super) response: L,
 }
 
 impl<L: Lanes> Body<L> {
     #[inline(always)]
-    fn gather(rows: &[Row], index: &[u32; LANES]) -> Self {
+    pub(super) fn gather(rows: &[Row], index: &[u32; LANES]) -> Self {
         let [x, y, z, inverse_mass, p, q, r, response] = L::gather(rows_at(rows, index));
         let (linear, angular) = (Vec3x8::new(x, y, z), Vec3x8::new(p, q, r));
         Self { linear, inverse_mass, angular, response }
     }
 
+    /// The same bodies with other velocities.
     #[inline(always)]
-    fn scatter(self, rows: &mut [Row], index: &[u32; LANES]) {
-        let (v, w) = (self.linear, self.angular);
-        L::scatter([v.x, v.y, v.z, self.inverse_mass, w.x, w.y, w.z, self.response], rows, index);
+    pub(super) fn with_rows(&self, [x, y, z, _, p, q, r, _]: [L; LANES]) -> Self {
+        Self { linear: Vec3x8::new(x, y, z), angular: Vec3x8::new(p, q, r), ..*self }
     }
 
+    /// The velocities as something to be added to others.
+    #[inline(always)]
+    pub(super) fn changes(self) -> [L; LANES] {
+        let (v, w, zero) = (self.linear, self.angular, L::splat(0.0));
+        [v.x, v.y, v.z, zero, w.x, w.y, w.z, zero]
+    }
+
+    #[inline(always)]
+    pub(super) fn columns(self) -> [L; LANES] {
+        let (v, w) = (self.linear, self.angular);
+        [v.x, v.y, v.z, self.inverse_mass, w.x, w.y, w.z, self.response]
+    }
+
+    #[inline(always)]
+    fn scatter(self, rows: &mut [Row], index: &[u32; LANES]) {
+        L::scatter(self.columns(), rows, index);
+    }
 }
 
 /// Visits every batch once, in order.
@@ -104,8 +121,7 @@ pub(super) fn pass<L: Lanes>(
     for (batch, header) in batches.iter().zip(headers) {
         let mut a = Body::<L>::gather(velocities, &batch.a);
         let mut b = Body::<L>::gather(velocities, &batch.b);
-        let range = batch.first as usize..(batch.first + batch.points) as usize;
-        for point in &mut points[range] {
+        for point in &mut points[batch.range()] {
             solve(pass, softness, header, point, &mut a, &mut b);
         }
         a.scatter(velocities, &batch.a);
@@ -135,31 +151,6 @@ fn solve<L: Lanes>(
     let opening = normal.dot(relative) + (normal_b.dot(b.angular) - normal_a.dot(a.angular));
     let impulse = L::load(&rows.normal_impulse);
 
-    let tangents = load_both::<L>(&header.tangents);
-    let tangents_a = load_both::<L>(&rows.tangents_a);
-    let tangents_b = load_both::<L>(&rows.tangents_b);
-    let tangent_mass = L::load(&rows.tangent_mass);
-    let old = [L::load(&rows.tangent_impulses[0]), L::load(&rows.tangent_impulses[1])];
-    let rate = L::splat(softness.drift_rate);
-    let mut wanted = old;
-    for axis in 0..2 {
-        let turning = tangents_b[axis].dot(b.angular) - tangents_a[axis].dot(a.angular);
-        let slide = tangents[axis].dot(relative) + turning;
-        let slide = match pass {
-            Pass::Biased => slide + L::load(&rows.drift[axis]) * rate,
-            Pass::Relaxing => slide,
-        };
-        wanted[axis] = old[axis] - slide * tangent_mass;
-    }
-    let limit = L::load(&header.friction) * impulse;
-    let size = (wanted[0] * wanted[0] + wanted[1] * wanted[1]).max(L::splat(TINY)).sqrt();
-    let over = size.greater(limit);
-    let scale = over.select(limit / size, L::splat(1.0));
-    let friction = [wanted[0] * scale, wanted[1] * scale];
-    over.and(L::splat(1.0)).store(&mut rows.slides);
-    friction[0].store(&mut rows.tangent_impulses[0]);
-    friction[1].store(&mut rows.tangent_impulses[1]);
-
     let separation = L::load(&rows.separation);
     let apart = separation.greater(zero);
     let mass = L::load(&rows.normal_mass);
@@ -179,6 +170,43 @@ fn solve<L: Lanes>(
     let new = new.max(zero);
     new.store(&mut rows.normal_impulse);
 
+    let tangents = load_both::<L>(&header.tangents);
+    let tangents_a = load_both::<L>(&rows.tangents_a);
+    let tangents_b = load_both::<L>(&rows.tangents_b);
+    let tangent_mass = L::load(&rows.tangent_mass);
+    let old = [L::load(&rows.tangent_impulses[0]), L::load(&rows.tangent_impulses[1])];
+    let rate = L::splat(softness.drift_rate);
+    let mut drift = [L::load(&rows.drift[0]), L::load(&rows.drift[1])];
+    let mut wanted = old;
+    for axis in 0..2 {
+        let turning = tangents_b[axis].dot(b.angular) - tangents_a[axis].dot(a.angular);
+        let slide = tangents[axis].dot(relative) + turning;
+        let corrected = match pass {
+            Pass::Biased => slide + drift[axis] * rate,
+            Pass::Relaxing => {
+                drift[axis] = drift[axis] + slide;
+                slide
+            }
+        };
+        wanted[axis] = old[axis] - corrected * tangent_mass;
+    }
+    // By the multiplier that this visit found: the one before is a soft pass's, too small while a contact takes up
+    // its load.
+    let limit = L::load(&header.friction) * new;
+    let size = (wanted[0] * wanted[0] + wanted[1] * wanted[1]).max(L::splat(TINY)).sqrt();
+    let over = size.greater(limit);
+    let scale = over.select(limit / size, L::splat(1.0));
+    let friction = [wanted[0] * scale, wanted[1] * scale];
+    friction[0].store(&mut rows.tangent_impulses[0]);
+    friction[1].store(&mut rows.tangent_impulses[1]);
+    if pass == Pass::Relaxing {
+        // The anchors of what slides follow it at once, or it would be pulled back when it stops.
+        for axis in 0..2 {
+            (L::load(&rows.slid[axis]) + over.and(drift[axis])).store(&mut rows.slid[axis]);
+            over.select(zero, drift[axis]).store(&mut rows.drift[axis]);
+        }
+    }
+
     let change = new - impulse;
     let changes = [friction[0] - old[0], friction[1] - old[1]];
     let linear = normal * change + tangents[0] * changes[0] + tangents[1] * changes[1];
@@ -192,3 +220,59 @@ fn solve<L: Lanes>(
 
 /// Squared multipliers below this are none.
 const TINY: f32 = 1e-30;
+
+/// How fast the surfaces of a point move apart along the normal, over a substep, in m.
+#[inline(always)]
+pub(super) fn opening<L: Lanes>(header: &HeaderRows, rows: &PointRows, a: &Body<L>, b: &Body<L>) -> L {
+    let turning =
+        Vec3x8::<L>::load(&rows.normal_b).dot(b.angular) - Vec3x8::<L>::load(&rows.normal_a).dot(a.angular);
+    Vec3x8::load(&header.normal).dot(b.linear - a.linear) + turning
+}
+
+/// Applies impulses along the normal and the tangents to b, and their opposites to a.
+#[inline(always)]
+pub(super) fn push_apart<L: Lanes>(
+    header: &HeaderRows,
+    rows: &PointRows,
+    impulses: [L; 3],
+    a: &mut Body<L>,
+    b: &mut Body<L>,
+) {
+    let [normal, first, second] = impulses;
+    let directions = load_both::<L>(&header.tangents);
+    let linear = Vec3x8::load(&header.normal) * normal + directions[0] * first + directions[1] * second;
+    let (turns_a, turns_b) = (load_both::<L>(&rows.tangents_a), load_both::<L>(&rows.tangents_b));
+    let turn_a = Vec3x8::load(&rows.normal_a) * normal + turns_a[0] * first + turns_a[1] * second;
+    let turn_b = Vec3x8::load(&rows.normal_b) * normal + turns_b[0] * first + turns_b[1] * second;
+    a.linear = a.linear - linear * a.inverse_mass;
+    b.linear = b.linear + linear * b.inverse_mass;
+    a.angular = a.angular - turn_a * a.response;
+    b.angular = b.angular + turn_b * b.response;
+}
+
+/// Stops sliding, in the lanes of a mask, as far as Coulomb's cone over the normal impulse allows.
+#[inline(always)]
+pub(super) fn solve_friction<L: Lanes>(
+    header: &HeaderRows,
+    rows: &mut PointRows,
+    mask: L,
+    a: &mut Body<L>,
+    b: &mut Body<L>,
+) {
+    let tangents = load_both::<L>(&header.tangents);
+    let (turns_a, turns_b) = (load_both::<L>(&rows.tangents_a), load_both::<L>(&rows.tangents_b));
+    let (relative, mass) = (b.linear - a.linear, L::load(&rows.tangent_mass));
+    let old = [L::load(&rows.tangent_impulses[0]), L::load(&rows.tangent_impulses[1])];
+    let mut wanted = old;
+    for axis in 0..2 {
+        let turning = turns_b[axis].dot(b.angular) - turns_a[axis].dot(a.angular);
+        wanted[axis] = old[axis] - (tangents[axis].dot(relative) + turning) * mass;
+    }
+    let limit = L::load(&header.friction) * L::load(&rows.normal_impulse);
+    let size = (wanted[0] * wanted[0] + wanted[1] * wanted[1]).max(L::splat(TINY)).sqrt();
+    let scale = size.greater(limit).select(limit / size, L::splat(1.0));
+    let new = [mask.select(wanted[0] * scale, old[0]), mask.select(wanted[1] * scale, old[1])];
+    new[0].store(&mut rows.tangent_impulses[0]);
+    new[1].store(&mut rows.tangent_impulses[1]);
+    push_apart(header, rows, [L::splat(0.0), new[0] - old[0], new[1] - old[1]], a, b);
+}

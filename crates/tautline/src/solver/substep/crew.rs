@@ -11,7 +11,7 @@ use crate::particles::Particles;
 use crate::simd::{Instructions, Kernel, LANES, Lanes, Row, Vec3x8, run};
 
 use super::block::{Block, Constants, Motion, ParticleRows, Rows3, particles};
-use super::lineup::{Lineup, NOBODY};
+use super::lineup::Lineup;
 use super::rigidity;
 
 /// How far a body moves before its contacts are looked for anew, in m.
@@ -70,9 +70,9 @@ pub(super) struct Crew {
     /// What the contacts' multipliers add to each velocity in a substep.
     pub(super) accumulated: Vec<Row>,
     /// Velocities when `accumulated` was last brought up to date.
-    before: Vec<Row>,
+    pub(super) before: Vec<Row>,
     /// What forces add to each velocity in a substep.
-    kicks: Vec<Row>,
+    pub(super) kicks: Vec<Row>,
 }
 
 /// A run of blocks with all that belongs to them.
@@ -185,7 +185,7 @@ impl Crew {
 
     /// Moves all bodies by a substep.
     pub(super) fn advance(&mut self, lineup: &Lineup, timing: &Timing) {
-        self.for_each(lineup, lineup.stripes(), |squad| run(timing.instructions, Advance { squad, h: timing.h }));
+        self.for_each(lineup, lineup.stripes(), |squad| run(timing.instructions, Advance { squad, timing }));
     }
 
     /// The particles of eight bodies as they are now: positions and displacements.
@@ -354,48 +354,48 @@ impl Kernel for Read<'_, '_> {
 /// What gravity and forces add to the rows in a substep.
 #[inline(always)]
 fn kick<L: Lanes>(timing: &Timing, is_forced: bool, block: &Block, inputs: &Inputs) -> [L; LANES] {
-        let constants = &block.constants;
-        let (zero, h) = (L::splat(0.0), timing.h);
-        let gravity = Vec3x8::splat(timing.gravity * (h * h)) * L::load(&constants.gravity_scale);
-        if !is_forced {
-            return [gravity.x, gravity.y, gravity.z, zero, zero, zero, zero, zero];
-        }
-        let h_squared = L::splat(h * h);
-        let (forces, positions) = (particles::<L>(&inputs.forces), particles::<L>(&inputs.positions));
-        let center = Vec3x8::<L>::load(&block.center);
-        let (mut total, mut torque) = (Vec3x8::<L>::zero(), Vec3x8::<L>::zero());
-        for (force, position) in forces.into_iter().zip(positions) {
-            total = total + force;
-            torque = torque + (position - center).cross(force);
-        }
-        let linear = gravity + total * (L::load(&constants.inverse_mass) * h_squared);
-        let turn = block.axes_now().apply_transposed(torque).scale(Vec3x8::load(&constants.inverse_root_inertia));
-        let turn = turn * (L::load(&constants.response) * h_squared);
-        [linear.x, linear.y, linear.z, zero, turn.x, turn.y, turn.z, zero]
+    let constants = &block.constants;
+    let (zero, h) = (L::splat(0.0), timing.h);
+    let gravity = Vec3x8::splat(timing.gravity * (h * h)) * L::load(&constants.gravity_scale);
+    if !is_forced {
+        return [gravity.x, gravity.y, gravity.z, zero, zero, zero, zero, zero];
     }
+    let h_squared = L::splat(h * h);
+    let (forces, positions) = (particles::<L>(&inputs.forces), particles::<L>(&inputs.positions));
+    let center = Vec3x8::<L>::load(&block.center);
+    let (mut total, mut torque) = (Vec3x8::<L>::zero(), Vec3x8::<L>::zero());
+    for (force, position) in forces.into_iter().zip(positions) {
+        total = total + force;
+        torque = torque + (position - center).cross(force);
+    }
+    let linear = gravity + total * (L::load(&constants.inverse_mass) * h_squared);
+    let turn = block.axes_now().apply_transposed(torque).scale(Vec3x8::load(&constants.inverse_root_inertia));
+    let turn = turn * (L::load(&constants.response) * h_squared);
+    [linear.x, linear.y, linear.z, zero, turn.x, turn.y, turn.z, zero]
+}
 
-    /// Notes which bodies have moved, and which may leave their boxes. Returns how far each one's rotation moves its
-    /// points in the step, in m.
-    #[inline(always)]
+/// Notes which bodies have moved, and which may leave their boxes. Returns how far each one's rotation moves its
+/// points in the step, in m.
+#[inline(always)]
 fn track<L: Lanes>(timing: &Timing, block: &Block, motion: Motion<L>, track: &mut Track) -> L {
-        let substeps = L::splat(timing.substeps);
-        let turning = motion.angular.length() * L::load(&block.constants.reach) * substeps;
-        let look_ahead = motion.linear.length() * substeps * L::splat(LOOK_AHEAD);
-        let need = look_ahead + turning + L::splat(0.5 * timing.margin);
-        need.store(&mut track.need);
-        let moved = block.moved_squared::<L>(&track.seen.center, &track.seen.axes);
-        let has_moved = moved.greater(L::splat(TOLERANCE * TOLERANCE));
-        track.moved |= has_moved.bits();
-        if track.moved != 0 {
-            update(has_moved, &mut track.seen.center, &block.center);
-            for (rows, now) in track.seen.axes.iter_mut().zip(&block.axes) {
-                update(has_moved, rows, now);
-            }
+    let substeps = L::splat(timing.substeps);
+    let turning = motion.angular.length() * L::load(&block.constants.reach) * substeps;
+    let look_ahead = motion.linear.length() * substeps * L::splat(LOOK_AHEAD);
+    let need = look_ahead + turning + L::splat(0.5 * timing.margin);
+    need.store(&mut track.need);
+    let moved = block.moved_squared::<L>(&track.seen.center, &track.seen.axes);
+    let has_moved = moved.greater(L::splat(TOLERANCE * TOLERANCE));
+    track.moved |= has_moved.bits();
+    if track.moved != 0 {
+        update(has_moved, &mut track.seen.center, &block.center);
+        for (rows, now) in track.seen.axes.iter_mut().zip(&block.axes) {
+            update(has_moved, rows, now);
         }
-        let away = block.moved_squared::<L>(&track.boxed.center, &track.boxed.axes).sqrt();
-        track.leaves |= (away + need).greater(L::load(&track.room)).bits() != 0;
-        turning
     }
+    let away = block.moved_squared::<L>(&track.boxed.center, &track.boxed.axes).sqrt();
+    track.leaves |= (away + need).greater(L::load(&track.room)).bits() != 0;
+    turning
+}
 
 /// Where the mask is set.
 #[inline(always)]
@@ -468,7 +468,7 @@ impl Kernel for Kick<'_, '_> {
 
 struct Advance<'a, 'b> {
     squad: &'a mut Squad<'b>,
-    h: f32,
+    timing: &'a Timing,
 }
 
 impl Kernel for Advance<'_, '_> {
@@ -485,7 +485,8 @@ impl Kernel for Advance<'_, '_> {
                 let change = L::load(velocity) - L::load(before);
                 (L::load(accumulated) + change).store(accumulated);
             }
-            let columns = rigidity::advance::<L>(block, &load(velocities), self.h);
+            let columns =
+                rigidity::advance::<L>(block, &load(velocities), self.timing.h, self.timing.damping);
             store(columns, velocities);
             before.copy_from_slice(velocities);
         }
@@ -504,8 +505,7 @@ impl Kernel for Write<'_> {
     fn run<L: Lanes>(self) -> Self::Output {
         let mut particles = [[Row::ZERO; 12]; 2];
         let [positions, displacements] = &mut particles;
-        let motion = self.block.motion::<L>(&load(self.rows));
-        self.block.write(motion, positions, displacements);
+        self.block.write::<L>(&load(self.rows), positions, displacements);
         particles
     }
 }

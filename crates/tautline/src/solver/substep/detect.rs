@@ -10,9 +10,9 @@ use super::held::{Held, HeldPoint};
 use super::pairs::{Detail, Pair};
 use crate::body::{Body, Substance};
 use crate::geometry::manifold::{
-    Manifold, Placement, Scratch, collide, collide_plane, separation_along,
+    Manifold, Placement, Scratch, collide, collide_plane, collide_triangle, separation_along,
 };
-use crate::shape::Convex;
+use crate::shape::{Convex, Surface};
 use crate::simd::{Kernel, Lanes, Row};
 
 /// What the narrow phase reads.
@@ -54,7 +54,8 @@ impl Scene<'_> {
     fn placed(&self, body: u32) -> Placed {
         let place = self.place_of[body as usize] as usize;
         let (first, second) = (&self.poses[2 * place].0, &self.poses[2 * place + 1].0);
-        let (e0, e1) = (Vec3::new(second[0], second[1], second[2]), Vec3::new(second[3], second[4], second[5]));
+        let (e0, e1) =
+            (Vec3::new(second[0], second[1], second[2]), Vec3::new(second[3], second[4], second[5]));
         let velocity = &self.velocities[place].0;
         Placed {
             center: Vec3::new(first[0], first[1], first[2]),
@@ -113,13 +114,30 @@ fn update<L: Lanes>(scene: Scene<'_>, pair: &mut Pair, detail: &mut Detail, scra
             for point in &mut manifold.points {
                 point.on_b = a.center + a.axes * point.on_b;
             }
-            (manifold, Placed { center: Vec3::ZERO, axes: Mat3::IDENTITY, motion: Vec3::ZERO, turning: 0.0, reach: 0.0 })
+            (
+                manifold,
+                Placed {
+                    center: Vec3::ZERO,
+                    axes: Mat3::IDENTITY,
+                    motion: Vec3::ZERO,
+                    turning: 0.0,
+                    reach: 0.0,
+                },
+            )
         }
         _ => {
             let b = scene.placed(pair.b);
-            let parts = part(scene.bodies, pair.a, detail.part_a).zip(part(scene.bodies, pair.b, detail.part_b));
-            let Some(parts) = parts else { return };
-            (collide_parts::<L>(scene, parts, (&a, &b), detail, scratch), b)
+            let Some(part_a) = part(scene.bodies, pair.a, detail.part_a) else { return };
+            let manifold = match surface(scene.bodies, pair.b) {
+                Some(surface) => {
+                    collide_with_triangle::<L>(scene, (part_a, surface), (&a, &b), detail, scratch)
+                }
+                None => {
+                    let Some(part_b) = part(scene.bodies, pair.b, detail.part_b) else { return };
+                    collide_parts::<L>(scene, (part_a, part_b), (&a, &b), detail, scratch)
+                }
+            };
+            (manifold, b)
         }
     };
     pair.points = manifold.count as u32;
@@ -137,6 +155,37 @@ fn part(bodies: &[Body], body: u32, part: u32) -> Option<&Convex> {
     }
 }
 
+fn surface(bodies: &[Body], body: u32) -> Option<&Surface> {
+    match &bodies[body as usize].substance {
+        Substance::Rigid(rigid) => rigid.shape.surface(),
+        _ => None,
+    }
+}
+
+/// Where the frame of b is in that of a, how a approaches b in a step (m, in a's frame), and how far ahead their
+/// contacts are looked for because they turn (m).
+#[inline(always)]
+fn relative(scene: Scene<'_>, a: &Placed, b: &Placed) -> (Placement, Vec3, f32) {
+    let to_a = a.axes.transpose();
+    let b_in_a = Placement { rotation: to_a * b.axes, translation: to_a * (b.center - a.center) };
+    (b_in_a, to_a * (a.motion - b.motion), scene.margin + 0.5 * (a.turning + b.turning))
+}
+
+#[inline(always)]
+fn collide_with_triangle<L: Lanes>(
+    scene: Scene<'_>,
+    (part, surface): (&Convex, &Surface),
+    (a, b): (&Placed, &Placed),
+    detail: &mut Detail,
+    scratch: &mut Scratch,
+) -> Manifold {
+    let (b_in_a, approach, base) = relative(scene, a, b);
+    let triangle = surface.triangle(detail.part_b);
+    let closing = -(b_in_a.rotation * triangle.normal).dot(approach);
+    let margin = base + LOOK_AHEAD * (closing.max(0.0) + 0.1 * approach.length());
+    collide_triangle::<L>(part, &triangle, &b_in_a, (&mut detail.memory, scratch), margin)
+}
+
 #[inline(always)]
 fn collide_parts<L: Lanes>(
     scene: Scene<'_>,
@@ -145,10 +194,7 @@ fn collide_parts<L: Lanes>(
     detail: &mut Detail,
     scratch: &mut Scratch,
 ) -> Manifold {
-    let to_a = a.axes.transpose();
-    let b_in_a = Placement { rotation: to_a * b.axes, translation: to_a * (b.center - a.center) };
-    let approach = to_a * (a.motion - b.motion);
-    let base = scene.margin + 0.5 * (a.turning + b.turning);
+    let (b_in_a, approach, base) = relative(scene, a, b);
     let axis = detail.memory.axis;
     let is_new = axis == Vec3::ZERO;
     if is_new {
@@ -176,7 +222,8 @@ fn hold(manifold: &Manifold, (a, b): (&Placed, &Placed), detail: &mut Detail) {
         let Some(before) = predecessor(old, name(found.key), found.on_a, a.reach) else { continue };
         let distance = (b.center + b.axes * before.on_b()) - (a.center + a.axes * before.on_a());
         let sticks = before.normal_impulse() > 0.0 && distance.dot(old_normal) < LETS_GO;
-        let slip = if sticks { (distance + before.slip()).reject_from_normalized(normal) } else { Vec3::ZERO };
+        let slip =
+            if sticks { (distance + before.slip()).reject_from_normalized(normal) } else { Vec3::ZERO };
         point.continue_from(before.normal_impulse(), before.tangent_impulse(), slip);
     }
     **old = held;

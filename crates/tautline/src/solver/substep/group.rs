@@ -6,21 +6,29 @@ use crate::parallel;
 use crate::simd::{Instructions, Kernel, Lanes, Row, run};
 
 use super::batch::{Active, Batch, Colouring, HeaderRows, PointRows};
+use super::bounce::{Bounce, MOST_VISITS};
 use super::contact::{Pass, Softness, pass};
+use super::crew::Crew;
 use super::lineup::{Lineup, Region};
 use super::pairs::Pairs;
 use super::prepare::{Poses, fill};
+use super::rolling::Rolling;
 
 /// Pairs that are solved one batch after the other.
 #[derive(Debug, Clone)]
 pub(super) struct Group {
-    pub(super) region: Region,
     /// The places whose velocities it reads and changes.
     pub(super) range: Range<usize>,
     pub(super) active: Vec<Active>,
     pub(super) batches: Vec<Batch>,
     pub(super) headers: Vec<HeaderRows>,
     pub(super) points: Vec<PointRows>,
+    /// Of the batches with restitution.
+    pub(super) bounces: Vec<Bounce>,
+    /// Of the batches with rolling friction.
+    rollings: Vec<Rolling>,
+    /// Whether the last visit of the bounces changed anything.
+    is_ringing: bool,
     colouring: Colouring,
 }
 
@@ -35,13 +43,22 @@ pub(super) struct Groups {
 impl Group {
     fn new(region: Region, lineup: &Lineup) -> Self {
         Self {
-            region,
             range: lineup.range(region),
             active: Vec::new(),
             batches: Vec::new(),
             headers: Vec::new(),
             points: Vec::new(),
+            bounces: Vec::new(),
+            rollings: Vec::new(),
+            is_ringing: false,
             colouring: Colouring::default(),
+        }
+    }
+
+    /// Blows do not last: their impulses are not those of the next step.
+    pub(super) fn forget_blows(&mut self) {
+        for bounce in &self.bounces {
+            bounce.forget_blows(&mut self.points[self.batches[bounce.batch as usize].range()]);
         }
     }
 
@@ -74,8 +91,8 @@ impl Groups {
         groups
     }
 
-    pub(super) fn iter(&self) -> impl Iterator<Item = &Group> {
-        self.groups.iter()
+    pub(super) fn iter_mut(&mut self) -> impl Iterator<Item = &mut Group> {
+        self.groups.iter_mut()
     }
 
     /// Sorts the pairs that have points, and of which a body is solved for, into their groups.
@@ -150,6 +167,46 @@ impl Groups {
         });
     }
 
+    /// Whether any contact has restitution.
+    fn has_bounces(&self) -> bool {
+        self.groups.iter().any(|group| !group.bounces.is_empty())
+    }
+
+    /// Before forces act: ends the blows of the last substep, and finds those of this one.
+    pub(super) fn meet(&mut self, crew: &mut Crew, h: f32, instructions: Instructions) {
+        if !self.has_bounces() {
+            return;
+        }
+        let (velocities, kicks) = (&crew.velocities, &crew.kicks);
+        self.for_each(&mut crew.accumulated, |group, accumulated| {
+            let (velocities, kicks) = (&velocities[group.range.clone()], &kicks[group.range.clone()]);
+            run(instructions, Meet { group, velocities, kicks, accumulated, h });
+        });
+    }
+
+    /// After the relaxing pass: blows part the bodies that met.
+    pub(super) fn part(&mut self, velocities: &mut [Row], instructions: Instructions) {
+        if !self.has_bounces() {
+            return;
+        }
+        for visit in 0..MOST_VISITS {
+            self.for_each(velocities, |group, velocities| {
+                group.is_ringing = run(instructions, Part { group, velocities, is_first: visit == 0 });
+            });
+            if !self.groups.iter().any(|group| group.is_ringing) {
+                break;
+            }
+        }
+    }
+
+    /// After the relaxing pass: rolling friction.
+    pub(super) fn resist_rolling(&mut self, velocities: &mut [Row], instructions: Instructions) {
+        if self.groups.iter().all(|group| group.rollings.is_empty()) {
+            return;
+        }
+        self.for_each(velocities, |group, velocities| run(instructions, Resist { group, velocities }));
+    }
+
     /// Visits all contacts once.
     pub(super) fn pass(
         &mut self,
@@ -176,11 +233,86 @@ impl Kernel for Prepare<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Group { batches, headers, points, .. } = self.group;
+        let Group { batches, headers, points, bounces, rollings, .. } = self.group;
         let contact_of = |pair: u32| self.pairs.details[pair as usize].held.as_deref();
-        for (batch, header) in batches.iter().zip(headers) {
-            let range = batch.first as usize..(batch.first + batch.points) as usize;
-            fill::<L>(batch, contact_of, &self.poses, (header, &mut points[range]), self.accumulated);
+        bounces.clear();
+        rollings.clear();
+        for (number, (batch, header)) in (0..).zip(batches.iter().zip(headers)) {
+            let rows = &mut points[batch.range()];
+            fill::<L>(batch, contact_of, &self.poses, (header, rows), self.accumulated);
+            let zero = L::splat(0.0);
+            if L::load(&header.restitution).greater(zero).bits() != 0 {
+                bounces.push(Bounce::new(number));
+            }
+            if L::load(&header.rolling_friction).greater(zero).bits() != 0 {
+                rollings.push(Rolling::new::<L>(number, batch, header, &self.poses));
+            }
+        }
+    }
+}
+
+struct Meet<'a> {
+    group: &'a mut Group,
+    velocities: &'a [Row],
+    kicks: &'a [Row],
+    accumulated: &'a mut [Row],
+    h: f32,
+}
+
+impl Kernel for Meet<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Group { batches, headers, points, bounces, .. } = self.group;
+        for bounce in bounces {
+            let number = bounce.batch as usize;
+            let contacts = (&batches[number], &headers[number], &mut points[batches[number].range()]);
+            bounce.meet::<L>(contacts, (self.velocities, self.kicks), self.accumulated, self.h);
+        }
+    }
+}
+
+struct Part<'a> {
+    group: &'a mut Group,
+    velocities: &'a mut [Row],
+    is_first: bool,
+}
+
+impl Kernel for Part<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> bool {
+        let Group { batches, headers, points, bounces, .. } = self.group;
+        let mut is_ringing = false;
+        for bounce in bounces {
+            let number = bounce.batch as usize;
+            let (batch, header) = (&batches[number], &headers[number]);
+            if self.is_first {
+                bounce.wake::<L>((batch, header, &mut points[batch.range()]), self.velocities);
+            }
+            is_ringing |= bounce.part::<L>((batch, header, &mut points[batch.range()]), self.velocities);
+        }
+        is_ringing
+    }
+}
+
+struct Resist<'a> {
+    group: &'a mut Group,
+    velocities: &'a mut [Row],
+}
+
+impl Kernel for Resist<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Group { batches, headers, points, rollings, .. } = self.group;
+        for rolling in rollings {
+            let number = rolling.batch as usize;
+            let batch = &batches[number];
+            rolling.resist::<L>((batch, &headers[number], &points[batch.range()]), self.velocities);
         }
     }
 }
@@ -201,7 +333,9 @@ impl Kernel for Visit<'_> {
         // The kind is a constant in each of the two copies.
         match self.kind {
             Pass::Biased => pass::<L>(Pass::Biased, self.softness, batches, headers, points, self.velocities),
-            Pass::Relaxing => pass::<L>(Pass::Relaxing, self.softness, batches, headers, points, self.velocities),
+            Pass::Relaxing => {
+                pass::<L>(Pass::Relaxing, self.softness, batches, headers, points, self.velocities)
+            }
         }
     }
 }

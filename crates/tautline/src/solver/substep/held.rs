@@ -53,16 +53,15 @@ impl Held {
         self.points = Self::EMPTY.points;
     }
 
+    /// Whether its numbers are finite, names aside.
+    pub(super) fn is_sound(&self) -> bool {
+        let points =
+            self.points.iter().flat_map(|point| point.anchors.0[..7].iter().chain(&point.friction.0));
+        self.header.0.iter().chain(points).all(|number| number.is_finite())
+    }
+
     pub(crate) fn normal(&self) -> Vec3 {
         vector(&self.header, 0)
-    }
-
-    pub(crate) fn restitution(&self) -> f32 {
-        self.header.0[4]
-    }
-
-    pub(crate) fn rolling_friction(&self) -> f32 {
-        self.header.0[5]
     }
 }
 

@@ -117,6 +117,31 @@ impl Lineup {
         self.places.resize(length, NOBODY);
     }
 
+    /// Checks a lineup from untrusted bytes.
+    pub(super) fn is_valid(&self, body_count: usize) -> bool {
+        let count = self.places.len();
+        let is_body = |body: u32| body == NOBODY || (body as usize) < body_count;
+        let mut end = 0;
+        let stripes_follow = self.stripes.iter().all(|stripe| {
+            let Stripe { places, driven } = stripe;
+            let follows =
+                places.start == end && places.end as usize % LANES == 0 && places.start < places.end;
+            end = places.end;
+            follows && *driven >= places.start && driven.saturating_add(self.driven_count) < places.end
+        });
+        let is_place = |(body, &place): (usize, &u32)| {
+            place == NOBODY || self.places.get(place as usize).is_some_and(|&other| other as usize == body)
+        };
+        count % LANES == 0
+            && (count == 0 || !self.stripes.is_empty() && self.places[count - 1] == NOBODY)
+            && stripes_follow
+            && end as usize == self.solved
+            && self.moving() <= count
+            && self.place_of.len() <= body_count
+            && self.places.iter().all(|&body| is_body(body))
+            && self.place_of.iter().enumerate().all(is_place)
+    }
+
     /// The runs of places that are solved side by side.
     pub(super) fn stripes(&self) -> impl Iterator<Item = Range<usize>> {
         self.stripes.iter().map(|stripe| stripe.places.start as usize..stripe.places.end as usize)
@@ -129,7 +154,7 @@ impl Lineup {
 
     /// The place that stands for half-spaces.
     pub(super) fn ground(&self) -> u32 {
-        self.places.len() as u32 - 1
+        (self.places.len() as u32).saturating_sub(1)
     }
 
     /// A body is removed: its place is empty, and those behind it have moved down.
@@ -165,7 +190,8 @@ impl Lineup {
     /// The places whose velocities a region may read and change.
     pub(super) fn range(&self, region: Region) -> Range<usize> {
         let span = |first: u32, last: u32| {
-            self.stripes[first as usize].places.start as usize..self.stripes[last as usize].places.end as usize
+            self.stripes[first as usize].places.start as usize
+                ..self.stripes[last as usize].places.end as usize
         };
         match region {
             Region::Stripe(i) => span(i, i),
@@ -267,7 +293,8 @@ mod tests {
             assert_eq!(lineup.places[stripe.places.end as usize - 1], NOBODY);
         }
         assert_eq!(lineup.places[lineup.ground() as usize], NOBODY);
-        let written = (0..lineup.places.len() as u32).filter(|&p| (p as usize) < lineup.solved && lineup.is_written(p));
+        let written =
+            (0..lineup.places.len() as u32).filter(|&p| (p as usize) < lineup.solved && lineup.is_written(p));
         assert_eq!(written.count(), 3103);
     }
 

@@ -6,6 +6,7 @@
 
 mod batch;
 mod block;
+mod bounce;
 mod boxes;
 mod contact;
 mod crew;
@@ -16,7 +17,9 @@ mod joint;
 mod lineup;
 mod pairs;
 mod prepare;
+mod pull;
 mod rigidity;
+mod rolling;
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -31,12 +34,22 @@ use crate::settings::Settings;
 use crate::simd::{LANES, run};
 
 use contact::{Pass, Softness};
-use crew::{Crew, Timing};
+use crew::{Crew, Timing, Track};
 use detect::{Detect, Scene};
 use group::Groups;
 use joint::JointSolver;
 use lineup::{Entry, Lineup, NOBODY, Role};
 use pairs::Pairs;
+
+/// What a snapshot keeps: all that the next step depends on and that is not in the particles.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Kept {
+    lineup: Lineup,
+    tracks: Vec<Track>,
+    pairs: Pairs,
+    versions: Vec<u32>,
+    is_stale: bool,
+}
 
 /// The rigid bodies of a world, as they are kept from step to step.
 #[derive(Debug, Clone, Default)]
@@ -48,6 +61,8 @@ pub(crate) struct RigidSolver {
     versions: Vec<u32>,
     /// Whether bodies have come, gone, fallen asleep or changed their kind since the lineup was made.
     is_stale: bool,
+    /// Whether what never moves has been read.
+    is_read: bool,
     groups: Groups,
     joints: JointSolver,
     /// Pairs of bodies that do not collide since a joint connects them, sorted.
@@ -72,6 +87,12 @@ impl RigidSolver {
         self.is_stale = true;
     }
 
+    /// Has the contacts of a body found anew before the next step, as if it had just come.
+    pub(crate) fn forget_contacts(&mut self, body: usize) {
+        self.pairs.forget(body as u32);
+        self.is_stale = true;
+    }
+
     /// Forgets a body that is removed; those behind it move down.
     pub(crate) fn remove_body(&mut self, body: usize) {
         self.pairs.remove_body(body as u32);
@@ -83,6 +104,37 @@ impl RigidSolver {
             self.lineup.forget(body as u32, place);
         }
         self.is_stale = true;
+    }
+
+    pub(crate) fn kept(&self) -> Kept {
+        Kept {
+            lineup: self.lineup.clone(),
+            tracks: self.crew.tracks.clone(),
+            pairs: self.pairs.clone(),
+            versions: self.versions.clone(),
+            is_stale: self.is_stale,
+        }
+    }
+
+    /// Goes on from what was kept, which comes from untrusted bytes.
+    pub(crate) fn restore(kept: Kept, bodies: &[Body], joints: &Joints) -> Option<Self> {
+        let Kept { lineup, tracks, pairs, versions, is_stale } = kept;
+        let is_sound = lineup.is_valid(bodies.len())
+            && tracks.len() * LANES == lineup.places.len()
+            && (versions.len() == bodies.len() || is_stale)
+            && pairs.is_valid(bodies);
+        if !is_sound {
+            return None;
+        }
+        let mut solver = Self { groups: Groups::new(&lineup), pairs, versions, is_stale, ..Self::default() };
+        if !lineup.places.is_empty() {
+            solver.crew = Crew::new(&lineup, bodies);
+            solver.crew.tracks = tracks;
+            solver.joints.assemble(joints, &lineup);
+            solver.separated = joints.separated();
+        }
+        solver.lineup = lineup;
+        Some(solver)
     }
 
     /// How many pairs of parts are near each other.
@@ -98,14 +150,15 @@ impl RigidSolver {
         h: f32,
     ) {
         let timing = timing(settings, h);
-        let is_first = std::mem::take(&mut self.is_stale);
+        let is_first = std::mem::take(&mut self.is_stale) || self.lineup.places.is_empty();
         if is_first {
             self.line_up(bodies, particles);
             self.joints.assemble(joints, &self.lineup);
             self.separated = joints.separated();
         }
         self.joints.begin(joints);
-        self.crew.read(&self.lineup, (bodies, particles), &timing, is_first);
+        let is_unread = is_first || !std::mem::replace(&mut self.is_read, true);
+        self.crew.read(&self.lineup, (bodies, particles), &timing, is_unread);
         let leaves = self.crew.count_versions(&self.lineup, &mut self.versions);
         if is_first || leaves {
             self.find_pairs(bodies, settings);
@@ -176,11 +229,14 @@ impl RigidSolver {
     /// One substep: forces, joints, contacts, motion, contacts without bias.
     pub(crate) fn substep(&mut self, settings: &Settings, h: f32, is_first: bool) {
         let (timing, instructions) = (timing(settings, h), settings.instructions);
+        self.groups.meet(&mut self.crew, h, instructions);
         self.crew.kick(&self.lineup, is_first, instructions);
         self.joints.solve(&mut self.crew, settings, h);
         self.groups.pass(Pass::Biased, &self.softness, &mut self.crew.velocities, instructions);
         self.crew.advance(&self.lineup, &timing);
         self.groups.pass(Pass::Relaxing, &self.softness, &mut self.crew.velocities, instructions);
+        self.groups.part(&mut self.crew.velocities, instructions);
+        self.groups.resist_rolling(&mut self.crew.velocities, instructions);
     }
 
     /// Writes the particles, and keeps the multipliers for the next step. A body that is not finite any more stays
@@ -229,9 +285,10 @@ impl RigidSolver {
     }
 
     fn keep_multipliers(&mut self) {
-        for group in self.groups.iter().filter(|group| !group.active.is_empty()) {
+        for group in self.groups.iter_mut().filter(|group| !group.active.is_empty()) {
+            group.forget_blows();
             for (batch, header) in group.batches.iter().zip(&group.headers) {
-                let points = &group.points[batch.first as usize..(batch.first + batch.points) as usize];
+                let points = &group.points[batch.range()];
                 for (lane, &pair) in batch.pairs.iter().enumerate() {
                     let detail = self.pairs.details.get_mut(pair as usize);
                     if let Some(held) = detail.and_then(|detail| detail.held.as_deref_mut()) {

@@ -5,8 +5,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::held::Held;
-use crate::body::Touch;
+use super::held::{Held, MOST_POINTS};
+use crate::body::{Body, Substance, Touch};
 use crate::geometry::manifold::Memory;
 
 /// What is looked at in every step.
@@ -60,7 +60,8 @@ impl Pairs {
     /// Makes the list anew from ascending keys.
     pub(super) fn replace(&mut self, keys: &[Key], touch: impl Fn(&Key) -> Touch) {
         let old = std::mem::take(self);
-        let mut old_keys = (0..old.pairs.len()).map(|index| old.key(index)).collect::<Vec<_>>().into_iter().peekable();
+        let mut old_keys =
+            (0..old.pairs.len()).map(|index| old.key(index)).collect::<Vec<_>>().into_iter().peekable();
         let mut old = old.pairs.into_iter().zip(old.details);
         self.pairs.reserve(keys.len());
         self.details.reserve(keys.len());
@@ -71,7 +72,8 @@ impl Pairs {
             }
             let (pair, detail) = kept.unwrap_or_else(|| {
                 let Key { a, b, part_a, part_b } = *key;
-                let detail = Detail { part_a, part_b, touch: touch(key), memory: Memory::default(), held: None };
+                let detail =
+                    Detail { part_a, part_b, touch: touch(key), memory: Memory::default(), held: None };
                 (Pair { a, b, stamp: NEVER, points: 0 }, detail)
             });
             self.pairs.push(pair);
@@ -79,14 +81,49 @@ impl Pairs {
         }
     }
 
+    /// Checks a list from untrusted bytes.
+    pub(super) fn is_valid(&self, bodies: &[Body]) -> bool {
+        let is_sound = |(pair, detail): (&Pair, &Detail)| {
+            let exist = (pair.a.max(pair.b) as usize) < bodies.len();
+            let is_held = detail.held.as_ref().is_some_and(|held| held.is_sound());
+            exist
+                && has_part(&bodies[pair.a as usize], detail.part_a)
+                && has_part(&bodies[pair.b as usize], detail.part_b)
+                && pair.points as usize <= MOST_POINTS
+                && (pair.points == 0 || is_held)
+                && detail.touch.is_sound()
+        };
+        self.pairs.len() == self.details.len()
+            && self.pairs.iter().zip(&self.details).all(is_sound)
+            && (1..self.pairs.len()).all(|index| self.key(index - 1) < self.key(index))
+    }
+
     /// Forgets the pairs of a body that is removed; the bodies behind it move down.
     pub(super) fn remove_body(&mut self, body: u32) {
-        let mut keep = self.pairs.iter().map(|pair| pair.a != body && pair.b != body).collect::<Vec<_>>().into_iter();
-        self.details.retain(|_| keep.next() == Some(true));
-        self.pairs.retain(|pair| pair.a != body && pair.b != body);
+        self.forget(body);
         for pair in &mut self.pairs {
             pair.a -= u32::from(pair.a > body);
             pair.b -= u32::from(pair.b > body);
         }
+    }
+
+    /// Forgets the pairs of a body.
+    pub(super) fn forget(&mut self, body: u32) {
+        let mut keep =
+            self.pairs.iter().map(|pair| pair.a != body && pair.b != body).collect::<Vec<_>>().into_iter();
+        self.details.retain(|_| keep.next() == Some(true));
+        self.pairs.retain(|pair| pair.a != body && pair.b != body);
+    }
+}
+
+/// Whether a body has a part, or a triangle, of this number.
+fn has_part(body: &Body, part: u32) -> bool {
+    match &body.substance {
+        Substance::Rigid(rigid) => match rigid.shape.surface() {
+            Some(surface) => (part as usize) < surface.mesh().triangles.len(),
+            None => (part as usize) < rigid.shape.parts().len(),
+        },
+        Substance::HalfSpace(_) => part == 0,
+        Substance::Truss { .. } | Substance::Deformable(_) => false,
     }
 }

@@ -9,15 +9,21 @@ use super::held::Held;
 pub(super) struct Poses<'a>(pub(super) &'a [Row]);
 
 /// Eight poses.
-struct Frames<L> {
+pub(super) struct Frames<L> {
     center: Vec3x8<L>,
     axes: Matrix3x8<L>,
     inverse_mass: L,
     inverse_root_inertia: Vec3x8<L>,
-    response: L,
+    pub(super) response: L,
 }
 
 impl<L: Lanes> Frames<L> {
+    /// √I⁻¹ Rᵀd: how an angular impulse along a direction changes the scaled rotation.
+    #[inline(always)]
+    pub(super) fn turn(&self, direction: Vec3x8<L>) -> Vec3x8<L> {
+        self.axes.apply_transposed(direction).scale(self.inverse_root_inertia)
+    }
+
     #[inline(always)]
     fn in_frame(&self, [x, y, z]: &[Vec3x8<L>; 3]) -> [Vec3x8<L>; 3] {
         [self.axes.apply_transposed(*x), self.axes.apply_transposed(*y), self.axes.apply_transposed(*z)]
@@ -26,7 +32,7 @@ impl<L: Lanes> Frames<L> {
 
 impl Poses<'_> {
     #[inline(always)]
-    fn gather<L: Lanes>(&self, places: &[u32; LANES]) -> Frames<L> {
+    pub(super) fn gather<L: Lanes>(&self, places: &[u32; LANES]) -> Frames<L> {
         let (mut firsts, mut seconds) = (*places, *places);
         for lane in 0..LANES {
             (firsts[lane], seconds[lane]) = (2 * places[lane], 2 * places[lane] + 1);
@@ -91,6 +97,8 @@ pub(super) fn fill<'a, L: Lanes>(
     directions[1].store(&mut header.tangents[0]);
     directions[2].store(&mut header.tangents[1]);
     shared[3].store(&mut header.friction);
+    shared[4].store(&mut header.restitution);
+    shared[5].store(&mut header.rolling_friction);
 
     let mut sum_a = L::gather(rows_at(accumulated, &batch.a));
     let mut sum_b = L::gather(rows_at(accumulated, &batch.b));
@@ -132,7 +140,7 @@ pub(super) fn fill<'a, L: Lanes>(
             impulses[axis + 1].store(&mut rows.tangent_impulses[axis]);
             directions[axis + 1].dot(drift).store(&mut rows.drift[axis]);
         }
-        rows.slides = Row::ZERO;
+        rows.slid = [Row::ZERO; 2];
     }
     shift(&mut sum_a, impulse, -a.inverse_mass);
     shift(&mut sum_b, impulse, b.inverse_mass);
@@ -178,10 +186,7 @@ pub(super) fn keep(lane: usize, header: &HeaderRows, points: &[PointRows], held:
     for (point, rows) in held.points.iter_mut().zip(points) {
         let impulses = [0, 1].map(|axis| rows.tangent_impulses[axis].0[lane]);
         let tangential = tangent(0, impulses[0]) + tangent(1, impulses[1]);
-        let mut slip = point.slip();
-        if rows.slides.0[lane] > 0.0 {
-            slip -= tangent(0, rows.drift[0].0[lane]) + tangent(1, rows.drift[1].0[lane]);
-        }
+        let slip = point.slip() - tangent(0, rows.slid[0].0[lane]) - tangent(1, rows.slid[1].0[lane]);
         point.continue_from(rows.normal_impulse.0[lane], tangential, slip);
     }
 }

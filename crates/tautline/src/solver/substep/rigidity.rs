@@ -9,38 +9,56 @@
 
 use crate::simd::{LANES, Lanes, Matrix3x8, Row, Vec3x8};
 
-use super::block::{Block, Motion};
+use super::block::Block;
 
 /// How often u is improved; each gains a factor of about |ω h|.
 const ITERATIONS: usize = 3;
 
-/// Moves eight bodies by a substep of `h` (s) and returns their rows after it, damped.
+/// Moves eight bodies by a substep of `h` (s) and returns their rows after it, damped by their own rates and that of
+/// the world (1/s).
 #[inline(always)]
-pub(super) fn advance<L: Lanes>(block: &mut Block, columns: &[L; LANES], h: f32) -> [L; LANES] {
+pub(super) fn advance<L: Lanes>(block: &mut Block, columns: &[L; LANES], h: f32, damping: f32) -> [L; LANES] {
     let motion = block.motion(columns);
-    let center = Vec3x8::load(&block.center) + motion.linear;
-    center.store(&mut block.center);
+    let shift = Vec3x8::load(&block.shift) + motion.linear;
+    shift.store(&mut block.shift);
 
     let inertia = Vec3x8::<L>::load(&block.constants.inertia);
-    let turn = turn_of(motion.angular, inertia);
+    let turn = Turn::of(motion.angular, inertia);
     let axes = Matrix3x8::<L>::load(&block.axes);
-    // L in the world's frame stays; ω follows from where the axes are now.
-    let momentum = axes.apply(motion.angular.scale(inertia));
-    let [x, y, z] = turn.0;
-    let turned = Matrix3x8([axes.apply(x), axes.apply(y), axes.apply(z)]);
-    turned.store(&mut block.axes);
-    let momentum = turned.apply_transposed(momentum);
-    let angular = Vec3x8::new(momentum.x / inertia.x, momentum.y / inertia.y, momentum.z / inertia.z);
+    // The angular momentum stays in the world's frame: Qᵀ I ω in that of the turned body. Only what that changes of ω
+    // is computed, and added to it; anew, ω would be rounded in the same way for many substeps.
+    let momentum = turn.change_back(motion.angular.scale(inertia));
+    let change = Vec3x8::new(momentum.x / inertia.x, momentum.y / inertia.y, momentum.z / inertia.z);
+    let change = axes.apply(change + turn.change(motion.angular + change));
+    let in_start = Matrix3x8::<L>::load(&block.start_axes).apply_transposed(change);
+    let change = in_start.scale(Vec3x8::load(&block.constants.root_inertia));
+    turn.applied_to(axes).store(&mut block.axes);
 
-    let in_start = Matrix3x8::<L>::load(&block.start_axes).apply_transposed(turned.apply(angular));
-    let (linear, angular) = (kept(&block.constants.damping[0], h), kept(&block.constants.damping[1], h));
-    block.velocity_rows(Motion { linear: motion.linear * linear, angular: in_start * angular })
+    let [x, y, z, mass, p, q, r, response] = *columns;
+    let linear = Vec3x8::new(x, y, z) * kept(&block.constants.damping[0], h, damping);
+    let angular = (Vec3x8::new(p, q, r) + change) * kept(&block.constants.damping[1], h, damping);
+    [linear.x, linear.y, linear.z, mass, angular.x, angular.y, angular.z, response]
 }
 
-/// What a substep of `h` (s) leaves of a motion that dies out at this rate (1/s).
+/// Axes that are unit and right-angled again: what rounding adds to them in every substep would otherwise add up in
+/// the angular momentum. Lengths are so near 1 that one Newton step makes them so.
 #[inline(always)]
-fn kept<L: Lanes>(rate: &Row, h: f32) -> L {
-    L::splat(1.0) / (L::splat(1.0) + L::load(rate) * L::splat(h))
+fn straightened<L: Lanes>(e0: Vec3x8<L>, e1: Vec3x8<L>) -> Matrix3x8<L> {
+    let e0 = unit(e0);
+    let e1 = unit(e1 - e0 * e0.dot(e1));
+    Matrix3x8([e0, e1, e0.cross(e1)])
+}
+
+/// A vector of unit length, of one whose length is within some millionths of it.
+#[inline(always)]
+pub(super) fn unit<L: Lanes>(v: Vec3x8<L>) -> Vec3x8<L> {
+    v * (L::splat(1.5) - v.length_squared() * L::splat(0.5))
+}
+
+/// What a substep of `h` (s) leaves of a motion that dies out at these two rates (1/s) together.
+#[inline(always)]
+fn kept<L: Lanes>(rate: &Row, h: f32, damping: f32) -> L {
+    L::splat(1.0) / (L::splat(1.0) + (L::load(rate) + L::splat(damping)) * L::splat(h))
 }
 
 /// Of the quaternion with this imaginary part. Half a turn in a substep is as far as the equation goes; what spins
@@ -50,25 +68,48 @@ fn real_part<L: Lanes>(u: Vec3x8<L>) -> L {
     (L::splat(1.0) - u.length_squared()).max(L::splat(0.1)).sqrt()
 }
 
-/// The rotation, in the body's frame, of a body that turns by `angular` = ω h.
-#[inline(always)]
-fn turn_of<L: Lanes>(angular: Vec3x8<L>, inertia: Vec3x8<L>) -> Matrix3x8<L> {
-    let (one, two) = (L::splat(1.0), L::splat(2.0));
-    let inverse = Vec3x8::new(one / inertia.x, one / inertia.y, one / inertia.z);
-    let half = angular * L::splat(0.5);
-    let mut u = half;
-    for _ in 0..ITERATIONS {
-        let coupling = u.cross(u.scale(inertia)).scale(inverse);
-        u = (half - coupling) * (one / real_part(u));
+/// A rotation Q in a body's frame, as a unit quaternion.
+struct Turn<L> {
+    imaginary: Vec3x8<L>,
+    real: L,
+}
+
+impl<L: Lanes> Turn<L> {
+    /// Of bodies that turn by `angular` = ω h.
+    #[inline(always)]
+    fn of(angular: Vec3x8<L>, inertia: Vec3x8<L>) -> Self {
+        let one = L::splat(1.0);
+        let inverse = Vec3x8::new(one / inertia.x, one / inertia.y, one / inertia.z);
+        let half = angular * L::splat(0.5);
+        let mut u = half;
+        for _ in 0..ITERATIONS {
+            let coupling = u.cross(u.scale(inertia)).scale(inverse);
+            u = (half - coupling) * (one / real_part(u));
+        }
+        // Renormalised, so that it is a rotation also where the iteration has not ended.
+        let real = real_part(u);
+        let length = (u.length_squared() + real * real).sqrt();
+        Self { imaginary: u * (one / length), real: real / length }
     }
-    // Renormalised, so that the columns are unit also where the iteration has not ended.
-    let s = real_part(u);
-    let length = (u.length_squared() + s * s).sqrt();
-    let (u, s) = (u * (one / length), s / length);
-    let (x, y, z) = (u.x, u.y, u.z);
-    Matrix3x8([
-        Vec3x8::new(one - two * (y * y + z * z), two * (x * y + z * s), two * (x * z - y * s)),
-        Vec3x8::new(two * (x * y - z * s), one - two * (x * x + z * z), two * (y * z + x * s)),
-        Vec3x8::new(two * (x * z + y * s), two * (y * z - x * s), one - two * (x * x + y * y)),
-    ])
+
+    /// Q v − v.
+    #[inline(always)]
+    fn change(&self, v: Vec3x8<L>) -> Vec3x8<L> {
+        self.imaginary.cross(self.imaginary.cross(v) + v * self.real) * L::splat(2.0)
+    }
+
+    /// Qᵀ v − v.
+    #[inline(always)]
+    fn change_back(&self, v: Vec3x8<L>) -> Vec3x8<L> {
+        self.imaginary.cross(self.imaginary.cross(v) - v * self.real) * L::splat(2.0)
+    }
+
+    /// R Q.
+    #[inline(always)]
+    fn applied_to(&self, axes: Matrix3x8<L>) -> Matrix3x8<L> {
+        let (zero, one) = (L::splat(0.0), L::splat(1.0));
+        let x = axes.0[0] + axes.apply(self.change(Vec3x8::new(one, zero, zero)));
+        let y = axes.0[1] + axes.apply(self.change(Vec3x8::new(zero, one, zero)));
+        straightened(x, y)
+    }
 }

@@ -7,6 +7,7 @@
 //! relaxing pass. The equations are solved by Newton's method with the matrix at q.
 
 use super::super::crew::Crew;
+use super::super::rigidity::FASTEST;
 use super::elimination::{Matrix, Part, Plan, ZERO, transposed};
 use super::mover::{Mover, part};
 use super::work::Work;
@@ -20,7 +21,7 @@ const MOST_ITERATIONS: usize = 8;
 const SMALL_ERROR: f64 = 1e-4;
 
 /// The most that bodies turn in a substep for Newton's method to be tried, in rad.
-const GREATEST_TURN: f32 = 1.5;
+const GREATEST_TURN: f32 = 2.0 * FASTEST;
 
 /// Bodies that joints hold together.
 #[derive(Debug, Clone, Default)]

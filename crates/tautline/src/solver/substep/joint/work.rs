@@ -80,7 +80,7 @@ impl Work {
     fn placed(&self, movers: &[Mover], is_ahead: bool) -> [Placed; 2] {
         let place = |frame: &LocalFrame, mover: &Mover| {
             let axes = if is_ahead { mover.turned } else { mover.axes };
-            let shift = if is_ahead { mover.linear } else { Vec3::ZERO };
+            let shift = if is_ahead { mover.shift + mover.linear } else { mover.shift };
             Placed { shift, ..frame.on_body(mover.center, axes) }
         };
         let on_base = &self.joint.on_base;

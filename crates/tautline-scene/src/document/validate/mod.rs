@@ -1,17 +1,26 @@
 //! Judges a document: every value that is wrong, with its path.
 
+mod rigid;
+mod shape;
+
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
 use super::check::{
-    ANGLE, COORDINATE, Checker, FINITE, LENGTH, MASS, NOT_NEGATIVE, OPENING, POSITIVE, RATE, STEP, THICKNESS,
-    TOLERANCE,
+    ANGLE, COORDINATE, Checker, FINITE, LENGTH, MASS, NOT_NEGATIVE, OPENING, POSITIVE, RATE, SHARE, STEP,
+    THICKNESS, TOLERANCE,
 };
 use super::{
-    AxisAngle, Body, Bounds, Camera, Cloth, HalfSpace, MeshFile, MeshSource, Pin, Rigid, Room, Rope,
-    Rotation, Scene, Settings, Shape, SheetPlace, Sleep, Surface, Thread, VERSION, limits,
+    AxisAngle, Body, Bounds, Camera, Cloth, HalfSpace, Pin, Room, Rope, Rotation, Scene, Settings,
+    SheetPlace, Sleep, Surface, Thread, VERSION, limits,
 };
 use crate::error::{Error, Problem};
+use rigid::check_rigid;
+use shape::check_surface;
+
+/// What is said of a field that a truss does not know.
+const NOT_OF_TRUSSES: &str =
+    "only the solver \"default\" knows it, and only in scenes without cloth and rope";
 
 impl Scene {
     /// Refuses a document whose values a world could not be made of.
@@ -37,7 +46,7 @@ impl Scene {
         });
         c.count("record_every", self.record_every, 1, 1_000_000);
         c.within("settings", |c| check_settings(c, &self.settings));
-        check_bodies(&mut c, &self.bodies);
+        check_bodies(&mut c, &self.bodies, self.has_trusses());
         if let Some(Camera { eye, target, fov }) = &self.camera {
             c.within("camera", |c| {
                 c.vector("eye", eye, COORDINATE);
@@ -84,7 +93,7 @@ fn check_settings(c: &mut Checker, settings: &Settings) {
     }
 }
 
-fn check_bodies(c: &mut Checker, bodies: &[Body]) {
+fn check_bodies(c: &mut Checker, bodies: &[Body], has_trusses: bool) {
     if bodies.len() > limits::BODIES {
         c.problem("bodies", format!("{} bodies are more than {}", bodies.len(), limits::BODIES));
         return;
@@ -96,10 +105,11 @@ fn check_bodies(c: &mut Checker, bodies: &[Body]) {
                 let first = *names.entry(name).or_insert(i);
                 c.require(first == i, "name", || format!("{name:?} is the name of bodies[{first}] too"));
             }
-            check_body(c, body);
+            check_body(c, body, has_trusses);
         });
     }
-    check_total(c, "particles", bodies.iter().map(Body::particle_count), limits::PARTICLES);
+    let particles = bodies.iter().map(|body| body.particle_count(has_trusses));
+    check_total(c, "particles", particles, limits::PARTICLES);
     check_total(c, "triangles", bodies.iter().map(Body::triangle_count), limits::TRIANGLES);
 }
 
@@ -108,35 +118,33 @@ fn check_total(c: &mut Checker, what: &str, counts: impl Iterator<Item = u64>, m
     c.require(total <= most, "bodies", || format!("they have {total} {what}, more than {most}"));
 }
 
-fn check_body(c: &mut Checker, body: &Body) {
+fn check_body(c: &mut Checker, body: &Body, has_trusses: bool) {
     match body {
-        Body::Rigid(rigid) => check_rigid(c, rigid),
+        Body::Rigid(rigid) => check_rigid(c, rigid, has_trusses),
         Body::Cloth(cloth) => check_cloth(c, cloth),
         Body::Rope(rope) => check_rope(c, rope),
-        Body::HalfSpace(HalfSpace { normal, offset, friction, .. }) => {
+        Body::HalfSpace(HalfSpace { normal, offset, friction, restitution, rolling_friction, .. }) => {
             c.direction("normal", normal);
             c.number("offset", *offset, COORDINATE);
             c.number("friction", *friction, NOT_NEGATIVE);
+            check_surface_of_rigid(c, *restitution, *rolling_friction, has_trusses);
         }
-        Body::Room(Room { min, max, friction, .. }) => {
+        Body::Room(Room { min, max, friction, restitution, rolling_friction, .. }) => {
             check_box(c, min, max);
             c.number("friction", *friction, NOT_NEGATIVE);
+            check_surface_of_rigid(c, *restitution, *rolling_friction, has_trusses);
         }
     }
 }
 
-fn check_rigid(c: &mut Checker, rigid: &Rigid) {
-    c.within("shape", |c| check_shape(c, &rigid.shape));
-    c.vector("position", &rigid.position, COORDINATE);
-    check_rotation(c, &rigid.rotation);
-    c.vector("velocity", &rigid.velocity, COORDINATE);
-    c.vector("angular_velocity", &rigid.angular_velocity, COORDINATE);
-    c.optional("mass", rigid.mass, MASS);
-    c.optional("density", rigid.density, MASS);
-    c.require(rigid.mass.is_none() || rigid.density.is_none(), "density", || {
-        "there is a mass already: give one of the two".to_owned()
-    });
-    c.number("friction", rigid.friction, NOT_NEGATIVE);
+/// What rigid bodies and walls have, but trusses have not.
+fn check_surface_of_rigid(c: &mut Checker, restitution: Option<f32>, rolling: Option<f32>, is_truss: bool) {
+    c.optional("restitution", restitution, SHARE);
+    c.optional("rolling_friction", rolling, THICKNESS);
+    for (field, is_given) in [("restitution", restitution.is_some()), ("rolling_friction", rolling.is_some())]
+    {
+        c.require(!(is_truss && is_given), field, || NOT_OF_TRUSSES.to_owned());
+    }
 }
 
 fn check_cloth(c: &mut Checker, cloth: &Cloth) {
@@ -217,89 +225,6 @@ fn check_pin<Place>(c: &mut Checker, field: impl Display, pin: &Pin<Place>, coun
 
 fn place_name(place: &SheetPlace) -> String {
     serde_json::to_string(place).unwrap_or_default()
-}
-
-fn check_shape(c: &mut Checker, shape: &Shape) {
-    match shape {
-        Shape::Box { size } => c.vector("box.size", size, LENGTH),
-        Shape::Tetrahedron { radius } => c.number("tetrahedron.radius", *radius, LENGTH),
-        Shape::Octahedron { radius } => c.number("octahedron.radius", *radius, LENGTH),
-        Shape::Dodecahedron { radius } => c.number("dodecahedron.radius", *radius, LENGTH),
-        Shape::Icosahedron { radius } => c.number("icosahedron.radius", *radius, LENGTH),
-        Shape::Icosphere { radius, subdivisions } => c.within("icosphere", |c| {
-            c.number("radius", *radius, LENGTH);
-            c.count("subdivisions", *subdivisions, 0, 8);
-        }),
-        Shape::UvSphere { radius, segments, rings } => c.within("uv_sphere", |c| {
-            c.number("radius", *radius, LENGTH);
-            c.count("segments", *segments, 3, 1000);
-            c.count("rings", *rings, 2, 1000);
-        }),
-        Shape::Capsule { radius, height, segments, rings } => c.within("capsule", |c| {
-            c.number("radius", *radius, LENGTH);
-            c.number("height", *height, LENGTH);
-            c.count("segments", *segments, 3, 1000);
-            c.count("rings", *rings, 1, 1000);
-        }),
-        Shape::Cylinder { radius, height, segments } => c.within("cylinder", |c| {
-            c.number("radius", *radius, LENGTH);
-            c.number("height", *height, LENGTH);
-            c.count("segments", *segments, 3, 1000);
-        }),
-        Shape::Torus { radius, tube_radius, segments, tube_segments } => c.within("torus", |c| {
-            c.number("radius", *radius, LENGTH);
-            c.number("tube_radius", *tube_radius, LENGTH);
-            c.require(tube_radius < radius, "tube_radius", || {
-                format!("{tube_radius} leaves no hole: it must be below the radius {radius}")
-            });
-            c.count("segments", *segments, 3, 1000);
-            c.count("tube_segments", *tube_segments, 3, 1000);
-        }),
-        Shape::Hull { points } => {
-            c.points("hull.points", points);
-            c.require(points.len() >= 4, "hull.points", || {
-                format!("{} points span no volume: at least 4, not all in one plane", points.len())
-            });
-        }
-        Shape::Mesh(mesh) => check_mesh(c, mesh),
-        Shape::File(file) => check_file(c, file),
-    }
-}
-
-fn check_surface(c: &mut Checker, surface: &Surface) {
-    match surface {
-        Surface::Grid { columns, rows, width, depth } => c.within("grid", |c| {
-            c.count("columns", *columns, 2, limits::PARTICLES as u32 / 2);
-            c.count("rows", *rows, 2, limits::PARTICLES as u32 / 2);
-            c.number("width", *width, LENGTH);
-            c.number("depth", *depth, LENGTH);
-        }),
-        Surface::Mesh(mesh) => check_mesh(c, mesh),
-        Surface::File(file) => check_file(c, file),
-    }
-}
-
-/// Numbers and indices only: what is wrong with the surface as a whole is found where it is built.
-fn check_mesh(c: &mut Checker, mesh: &MeshSource) {
-    let count = mesh.positions.len();
-    c.within("mesh", |c| {
-        c.points("positions", &mesh.positions);
-        c.require(!mesh.triangles.is_empty(), "triangles", || "there are none".to_owned());
-        for (i, triangle) in mesh.triangles.iter().enumerate() {
-            for (k, &vertex) in triangle.iter().enumerate() {
-                c.require((vertex as usize) < count, format_args!("triangles[{i}][{k}]"), || {
-                    format!("{vertex} is the index of no position: there are {count}")
-                });
-            }
-        }
-    });
-}
-
-fn check_file(c: &mut Checker, file: &MeshFile) {
-    c.within("file", |c| {
-        c.number("scale", file.scale, LENGTH);
-        c.require(!file.path.is_empty(), "path", || "it is empty".to_owned());
-    });
 }
 
 fn check_rotation(c: &mut Checker, rotation: &Rotation) {

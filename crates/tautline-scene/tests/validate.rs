@@ -1,0 +1,55 @@
+//! Every case with a known answer, against its demand.
+
+use tautline_scene::validate::{Conditions, Outcome, cases, figures, run};
+
+fn report(outcomes: &[Outcome]) -> String {
+    let mut text = String::new();
+    for outcome in outcomes.iter().filter(|outcome| !outcome.pass) {
+        text += &format!("\n{} {}", outcome.id, outcome.name);
+        for part in outcome.parts.iter().filter(|part| !part.pass) {
+            text += &format!(
+                "\n    {}: {} {}, expected {}; off by {:.2e} {}, demanded {:e}",
+                part.name, part.measured, part.unit, part.expected, part.error, part.error_unit, part.demand
+            );
+        }
+    }
+    text
+}
+
+#[test]
+fn every_case_is_as_near_its_answer_as_demanded() {
+    let outcomes = run(&cases(), &Conditions::default(), || ()).unwrap();
+    assert!(outcomes.iter().all(|outcome| outcome.pass), "{}", report(&outcomes));
+}
+
+#[test]
+fn results_do_not_depend_on_the_threads() {
+    let mut some = cases();
+    some.retain(|case| [9, 13, 24].contains(&case.id));
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| run(&some, &Conditions::default(), || ()).unwrap())
+    };
+    assert_eq!(on(1), on(2));
+}
+
+#[test]
+fn numbers_are_given_once_and_the_wrong_gravity_shows() {
+    let all = cases();
+    assert!(all.is_sorted_by(|a, b| a.id < b.id));
+    assert!(figures().is_sorted_by(|a, b| a.id < b.id));
+    let mut free_fall = cases();
+    free_fall.retain(|case| case.id == 1);
+    let mut conditions = Conditions::default();
+    conditions.settings.gravity.y = -9.8;
+    let outcome = run(&free_fall, &conditions, || ()).unwrap().remove(0);
+    assert!(!outcome.pass && outcome.ratio() > 100.0, "{outcome:?}");
+}
+
+#[test]
+fn settings_that_are_refused_are_an_error() {
+    let mut conditions = Conditions::default();
+    conditions.settings.substeps = 0;
+    let error = run(&cases(), &conditions, || ()).unwrap_err();
+    assert!(error.to_string().starts_with("settings.substeps: "), "{error}");
+}

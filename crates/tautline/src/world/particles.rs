@@ -1,0 +1,101 @@
+//! Single particles of trusses, cloth and rope.
+
+use glam::Vec3;
+
+use super::World;
+use super::bodies::check_particle_mass;
+use crate::error::{Error, coordinates};
+use crate::slots::BodyHandle;
+
+impl World {
+    /// Applies a force (N) to one particle of a body during the next step.
+    ///
+    /// # Errors
+    /// [`Error::StaleHandle`]; [`Error::OutOfRange`] if a coordinate or `particle` is; [`Error::Invalid`] if the body is
+    /// rigid.
+    pub fn apply_force_at(&mut self, handle: BodyHandle, particle: u32, force: Vec3) -> Result<(), Error> {
+        coordinates("force", force)?;
+        let (index, i) = self.particle(handle, particle)?;
+        self.particles.force[i] += force;
+        self.particles.is_forced = true;
+        self.wake_body(index);
+        Ok(())
+    }
+
+    /// Pins a particle where it is.
+    ///
+    /// # Errors
+    /// [`Error::StaleHandle`]; [`Error::OutOfRange`] if `particle` is; [`Error::Invalid`] if the body is rigid.
+    pub fn pin(&mut self, handle: BodyHandle, particle: u32) -> Result<(), Error> {
+        let (index, i) = self.particle(handle, particle)?;
+        self.particles.inverse_mass[i] = 0.0;
+        self.particles.displacement[i] = Vec3::ZERO;
+        self.wake_body(index);
+        Ok(())
+    }
+
+    /// Lets a pinned particle go, from rest. The particles of a fixed body stay.
+    ///
+    /// # Errors
+    /// [`Error::StaleHandle`]; [`Error::OutOfRange`] if `particle` is; [`Error::Invalid`] if the body is rigid.
+    pub fn unpin(&mut self, handle: BodyHandle, particle: u32) -> Result<(), Error> {
+        let (index, i) = self.particle(handle, particle)?;
+        if !self.bodies[index].fixed {
+            self.particles.inverse_mass[i] = 1.0 / self.particles.mass[i];
+            self.wake_body(index);
+        }
+        Ok(())
+    }
+
+    /// Puts a particle somewhere (m) without giving it a velocity; for pinned ones, this is how they are moved.
+    ///
+    /// # Errors
+    /// [`Error::StaleHandle`]; [`Error::OutOfRange`] if a coordinate or `particle` is; [`Error::Invalid`] if the body is
+    /// rigid.
+    pub fn set_particle_position(
+        &mut self,
+        handle: BodyHandle,
+        particle: u32,
+        position: Vec3,
+    ) -> Result<(), Error> {
+        coordinates("position", position)?;
+        let (index, i) = self.particle(handle, particle)?;
+        self.wake_body(index);
+        self.wake_around_fixed(index);
+        self.index.take();
+        self.particles.position[i] = position;
+        self.bodies[index].refit_tree(&self.particles.position);
+        self.wake_around_fixed(index);
+        Ok(())
+    }
+
+    /// Sets the mass of one particle, in kg.
+    ///
+    /// # Errors
+    /// [`Error::StaleHandle`]; [`Error::OutOfRange`] if `mass` or `particle` is; [`Error::Invalid`] if the body is rigid.
+    pub fn set_particle_mass(&mut self, handle: BodyHandle, particle: u32, mass: f32) -> Result<(), Error> {
+        let mass = check_particle_mass(mass, 1)?;
+        let (index, i) = self.particle(handle, particle)?;
+        self.particles.mass[i] = mass;
+        if self.particles.inverse_mass[i] > 0.0 {
+            self.particles.inverse_mass[i] = 1.0 / mass;
+        }
+        self.wake_body(index);
+        Ok(())
+    }
+
+    /// The index of a body, and that of one of its particles in the store.
+    fn particle(&self, handle: BodyHandle, particle: u32) -> Result<(usize, usize), Error> {
+        let index = self.slots.index(handle)?;
+        if self.bodies[index].is_rigid() {
+            let problem = "is rigid: its particles move as one and are not to be reached one by one".into();
+            return Err(Error::Invalid { field: "body".into(), problem });
+        }
+        let range = &self.bodies[index].particles;
+        if (particle as usize) < range.len() {
+            return Ok((index, range.start + particle as usize));
+        }
+        let (field, value) = ("particle".into(), f64::from(particle));
+        Err(Error::OutOfRange { field, value, expected: "the number of one of the body's particles" })
+    }
+}
