@@ -13,6 +13,8 @@ use super::block::Block;
 
 /// How often u is improved; each gains a factor of about |ω h|.
 const ITERATIONS: usize = 3;
+/// Half the angle, in rad, up to which a substep's rotation is solved for; beyond, a body keeps its ω.
+const FASTEST: f32 = 0.5;
 
 /// Moves eight bodies by a substep of `h` (s) and returns their rows after it, damped by their own rates and that of
 /// the world (1/s).
@@ -29,7 +31,8 @@ pub(super) fn advance<L: Lanes>(block: &mut Block, columns: &[L; LANES], h: f32,
     // is computed, and added to it; anew, ω would be rounded in the same way for many substeps.
     let momentum = turn.change_back(motion.angular.scale(inertia));
     let change = Vec3x8::new(momentum.x / inertia.x, momentum.y / inertia.y, momentum.z / inertia.z);
-    let change = axes.apply(change + turn.change(motion.angular + change));
+    let change = change + turn.change(motion.angular + change);
+    let change = axes.apply(Vec3x8::select(turn.is_too_fast, Vec3x8::zero(), change));
     let in_start = Matrix3x8::<L>::load(&block.start_axes).apply_transposed(change);
     let change = in_start.scale(Vec3x8::load(&block.constants.root_inertia));
     turn.applied_to(axes).store(&mut block.axes);
@@ -72,6 +75,8 @@ fn real_part<L: Lanes>(u: Vec3x8<L>) -> L {
 struct Turn<L> {
     imaginary: Vec3x8<L>,
     real: L,
+    /// A mask: the equation has no answer that means anything; the body turns on as it did.
+    is_too_fast: L,
 }
 
 impl<L: Lanes> Turn<L> {
@@ -81,15 +86,17 @@ impl<L: Lanes> Turn<L> {
         let one = L::splat(1.0);
         let inverse = Vec3x8::new(one / inertia.x, one / inertia.y, one / inertia.z);
         let half = angular * L::splat(0.5);
+        let is_too_fast = half.length_squared().greater(L::splat(FASTEST * FASTEST));
         let mut u = half;
         for _ in 0..ITERATIONS {
             let coupling = u.cross(u.scale(inertia)).scale(inverse);
+            let coupling = Vec3x8::select(is_too_fast, Vec3x8::zero(), coupling);
             u = (half - coupling) * (one / real_part(u));
         }
         // Renormalised, so that it is a rotation also where the iteration has not ended.
         let real = real_part(u);
         let length = (u.length_squared() + real * real).sqrt();
-        Self { imaginary: u * (one / length), real: real / length }
+        Self { imaginary: u * (one / length), real: real / length, is_too_fast }
     }
 
     /// Q v − v.
