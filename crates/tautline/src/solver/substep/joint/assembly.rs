@@ -53,12 +53,26 @@ impl Assembly {
 
     pub(super) fn read(&mut self, crew: &Crew) {
         for mover in &mut self.movers {
-            mover.read(&crew.blocks, &crew.velocities);
+            mover.read(&crew.blocks);
+            mover.read_motion(&crew.velocities);
         }
     }
 
-    /// Solves for all joints in a substep.
-    pub(super) fn solve(&mut self, pace: &Pace) {
+    pub(super) fn read_motions(&mut self, crew: &Crew) {
+        for mover in &mut self.movers {
+            mover.read_motion(&crew.velocities);
+        }
+    }
+
+    pub(super) fn write_motions(&mut self, crew: &mut Crew) {
+        for mover in &mut self.movers[..self.solved] {
+            let row = mover.row(&crew.velocities[mover.place as usize]);
+            crew.set_velocity(mover.place as usize, row);
+        }
+    }
+
+    /// Finds the rows where the bodies are, and gives these what the joints did in the last substep.
+    pub(super) fn warm_start(&mut self) {
         for work in &mut self.works {
             work.prepare(&mut self.movers);
         }
@@ -68,6 +82,10 @@ impl Assembly {
             // Rows that bodies turned under are aimed anew with the multipliers of the last substep.
             work.push(&mut self.movers, &work.joint.state.multipliers);
         }
+    }
+
+    /// Solves for all joints in a substep.
+    pub(super) fn solve(&mut self, pace: &Pace) {
         self.is_linear = false;
         let (mut last_error, mut solves) = (f64::INFINITY, 0);
         for iteration in 0..MOST_ITERATIONS {

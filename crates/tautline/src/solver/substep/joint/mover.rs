@@ -52,7 +52,7 @@ impl Mover {
         Self { place, ..Self::default() }
     }
 
-    pub(super) fn read(&mut self, blocks: &[Block], velocities: &[Row]) {
+    pub(super) fn read(&mut self, blocks: &[Block]) {
         let (block, lane) = (&blocks[self.place as usize / LANES], self.place as usize % LANES);
         let constants = &block.constants;
         self.center = column(&block.center, lane);
@@ -62,12 +62,15 @@ impl Mover {
         self.inertia = column(&constants.inertia, lane);
         self.root_inertia = column(&constants.root_inertia, lane);
         self.inverse_mass = constants.inverse_mass.0[lane];
+        self.stiffness = Mat3::ZERO;
+    }
+
+    pub(super) fn read_motion(&mut self, velocities: &[Row]) {
         let [x, y, z, _, p, q, r, _] = velocities[self.place as usize].0;
         self.linear = Vec3::new(x, y, z);
-        self.angular = self.start_axes * (Vec3::new(p, q, r) * column(&constants.inverse_root_inertia, lane));
+        self.angular = self.start_axes * (Vec3::new(p, q, r) / self.root_inertia);
         self.given = [self.linear, self.angular];
         self.gained = [DVec3::ZERO; 2];
-        self.stiffness = Mat3::ZERO;
     }
 
     /// The row of the body, of which this was read, with what joints have changed.
