@@ -83,7 +83,7 @@ macro_rules! common {
             }
 
             /// By how much it gives way to a force, in m/N; 0 = as little as a substep allows. What is soft this way
-            /// is also damped: it does not ring.
+            /// loses its swing slowly, the more so the stiffer it is.
             pub fn compliance(mut self, compliance: f32) -> Self {
                 self.link.strength.compliance = compliance;
                 self

@@ -178,9 +178,13 @@ impl Crew {
         self.for_each(lineup, lineup.stripes(), |squad| run(instructions, Kick { squad, is_first }));
     }
 
-    /// Gives a body a velocity that is not to be given to it again in the next substep.
+    /// Gives a body a velocity whose change is not to be given to it again in the next substep.
     pub(super) fn set_velocity(&mut self, place: usize, row: Row) {
-        (self.velocities[place], self.before[place]) = (row, row);
+        let (velocity, before) = (&mut self.velocities[place], &mut self.before[place]);
+        for ((old, before), new) in velocity.0.iter_mut().zip(&mut before.0).zip(row.0) {
+            *before = if *before == *old { new } else { *before + (new - *old) };
+            *old = new;
+        }
     }
 
     /// Moves all bodies by a substep.

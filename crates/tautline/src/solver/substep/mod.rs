@@ -226,13 +226,14 @@ impl RigidSolver {
         self.groups.prepare(&self.pairs, poses, ground, &mut self.crew.accumulated, settings.instructions);
     }
 
-    /// One substep: forces, joints, contacts, motion, contacts without bias.
+    /// One substep: forces, contacts, joints, motion, contacts without bias.
     pub(crate) fn substep(&mut self, settings: &Settings, h: f32, is_first: bool) {
         let (timing, instructions) = (timing(settings, h), settings.instructions);
         self.groups.meet(&mut self.crew, h, instructions);
         self.crew.kick(&self.lineup, is_first, instructions);
-        self.joints.solve(&mut self.crew, settings, h);
+        self.joints.warm_start(&mut self.crew);
         self.groups.pass(Pass::Biased, &self.softness, &mut self.crew.velocities, instructions);
+        self.joints.solve(&mut self.crew, settings, h);
         self.crew.advance(&self.lineup, &timing);
         self.groups.pass(Pass::Relaxing, &self.softness, &mut self.crew.velocities, instructions);
         self.groups.part(&mut self.crew.velocities, instructions);

@@ -14,7 +14,7 @@ use super::block::Block;
 /// How often u is improved; each gains a factor of about |ω h|.
 const ITERATIONS: usize = 3;
 /// Half the angle, in rad, up to which a substep's rotation is solved for; beyond, a body keeps its ω.
-const FASTEST: f32 = 0.5;
+pub(super) const FASTEST: f32 = 0.5;
 
 /// Moves eight bodies by a substep of `h` (s) and returns their rows after it, damped by their own rates and that of
 /// the world (1/s).

@@ -1,4 +1,5 @@
-//! Joints between rigid bodies, solved before the contacts of a substep.
+//! Joints between rigid bodies. What they did in the last substep is given to the bodies before contacts are solved,
+//! and they are solved after those: what contacts did to single bodies is shared out before anything moves.
 //!
 //! Bodies that joints hold together make an assembly; no two assemblies share a body, so that they are solved side by
 //! side, each exactly and by itself.
@@ -8,6 +9,7 @@ mod elimination;
 mod mover;
 mod rows;
 mod stop;
+mod work;
 
 use std::collections::BTreeMap;
 
@@ -17,9 +19,10 @@ use crate::settings::Settings;
 
 use super::crew::Crew;
 use super::lineup::{Lineup, NOBODY, Region};
-use assembly::{Assembly, Pace, Work};
+use assembly::{Assembly, Pace};
 use elimination::Plan;
 use mover::Mover;
+use work::Work;
 
 /// From so many joints on it pays to solve assemblies side by side.
 const WORTHWHILE: usize = 32;
@@ -69,20 +72,30 @@ impl JointSolver {
         }
     }
 
+    /// Gives all bodies what the joints did in the last substep.
+    pub(super) fn warm_start(&mut self, crew: &mut Crew) {
+        self.for_each(crew, |assembly, crew| {
+            assembly.read(crew);
+            assembly.warm_start();
+        });
+    }
+
     /// Solves for all joints in a substep of `h` (s).
     pub(super) fn solve(&mut self, crew: &mut Crew, settings: &Settings, h: f32) {
         let pace = Pace { h, limit: settings.separation_speed.map_or(f32::INFINITY, |speed| speed * h) };
-        let worthwhile = self.joint_count >= WORTHWHILE && self.assemblies.len() > 1;
-        let shared = &*crew;
-        parallel::for_each(&mut self.assemblies, worthwhile, |assembly| {
-            assembly.read(shared);
+        self.for_each(crew, |assembly, crew| {
+            assembly.read_motions(crew);
             assembly.solve(&pace);
         });
+    }
+
+    /// Does `work` on all assemblies side by side, and then gives the bodies the motions that it left.
+    fn for_each(&mut self, crew: &mut Crew, work: impl Fn(&mut Assembly, &Crew) + Send + Sync) {
+        let worthwhile = self.joint_count >= WORTHWHILE && self.assemblies.len() > 1;
+        let shared = &*crew;
+        parallel::for_each(&mut self.assemblies, worthwhile, |assembly| work(assembly, shared));
         for assembly in &mut self.assemblies {
-            for mover in &mut assembly.movers[..assembly.solved] {
-                let row = mover.row(&crew.velocities[mover.place as usize]);
-                crew.set_velocity(mover.place as usize, row);
-            }
+            assembly.write_motions(crew);
         }
     }
 

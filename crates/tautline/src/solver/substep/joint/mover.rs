@@ -5,6 +5,7 @@ use glam::{DVec3, Mat3, Vec3};
 use crate::simd::{LANES, Row};
 
 use super::super::block::{Block, Rows3};
+use super::super::rigidity;
 use super::elimination::{self, Part};
 
 /// A body as joints see it, with motions in the world's frame.
@@ -12,8 +13,9 @@ use super::elimination::{self, Part};
 pub(super) struct Mover {
     /// In the lineup; of a kinematic body its first copy.
     pub(super) place: u32,
-    /// In m.
+    /// Its centre of mass when the step began, and how far that has moved since, in m.
     pub(super) center: Vec3,
+    pub(super) shift: Vec3,
     pub(super) axes: Mat3,
     start_axes: Mat3,
     /// Principal moments per mass, in m².
@@ -50,21 +52,25 @@ impl Mover {
         Self { place, ..Self::default() }
     }
 
-    pub(super) fn read(&mut self, blocks: &[Block], velocities: &[Row]) {
+    pub(super) fn read(&mut self, blocks: &[Block]) {
         let (block, lane) = (&blocks[self.place as usize / LANES], self.place as usize % LANES);
         let constants = &block.constants;
         self.center = column(&block.center, lane);
+        self.shift = column(&block.shift, lane);
         self.axes = columns(&block.axes, lane);
         self.start_axes = columns(&block.start_axes, lane);
         self.inertia = column(&constants.inertia, lane);
         self.root_inertia = column(&constants.root_inertia, lane);
         self.inverse_mass = constants.inverse_mass.0[lane];
+        self.stiffness = Mat3::ZERO;
+    }
+
+    pub(super) fn read_motion(&mut self, velocities: &[Row]) {
         let [x, y, z, _, p, q, r, _] = velocities[self.place as usize].0;
         self.linear = Vec3::new(x, y, z);
-        self.angular = self.start_axes * (Vec3::new(p, q, r) * column(&constants.inverse_root_inertia, lane));
+        self.angular = self.start_axes * (Vec3::new(p, q, r) / self.root_inertia);
         self.given = [self.linear, self.angular];
         self.gained = [DVec3::ZERO; 2];
-        self.stiffness = Mat3::ZERO;
     }
 
     /// The row of the body, of which this was read, with what joints have changed.
@@ -139,6 +145,8 @@ impl Mover {
 /// See `rigidity`: 2 (s I u + u × I u) = I ω h for the quaternion (u, s).
 fn turn_of(angular: Vec3, inertia: Vec3) -> Mat3 {
     let half = angular * 0.5;
+    let is_too_fast = half.length_squared() > rigidity::FASTEST * rigidity::FASTEST;
+    let inertia = if is_too_fast { Vec3::ONE } else { inertia };
     let real_part = |u: Vec3| (1.0 - u.length_squared()).max(0.1).sqrt();
     let mut u = half;
     for _ in 0..3 {

@@ -20,7 +20,18 @@ pub(super) struct Row {
     pub(super) compliance: f32,
 }
 
-/// What a row is to do: to lead to `goal` up to `softness` times its multiplier, if it is held.
+/// What comes of the motions as they are.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lead {
+    /// The coordinate at the end of the substep, in m or rad.
+    pub(super) ahead: f32,
+    /// How much it changes.
+    pub(super) way: f32,
+    pub(super) multiplier: f32,
+}
+
+/// What a row is to do: to lead to `goal` up to `softness` times its multiplier, if it is held. The
+/// goal of a motor is a way.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Aim {
     pub(super) is_held: bool,
@@ -35,7 +46,7 @@ pub(super) fn aim(stop: &Stop, mode: Mode, row: &Row, pace: &Pace) -> Aim {
         (Mode::AtLow, _) => Aim { is_held: true, goal: stop.low.min(row.now + pace.limit), softness },
         (Mode::AtHigh, _) => Aim { is_held: true, goal: stop.high.max(row.now - pace.limit), softness },
         (Mode::Within, Some(Push::Motor(motor))) => {
-            Aim { is_held: true, goal: row.now + motor.speed * pace.h, softness: 0.0 }
+            Aim { is_held: true, goal: motor.speed * pace.h, softness: 0.0 }
         }
         (Mode::Within, Some(Push::Spring(spring, length))) => spring_aim(spring, length, row, pace),
         (Mode::Within, None) | (Mode::Forwards | Mode::Backwards, _) => Aim::default(),
@@ -70,14 +81,9 @@ pub(super) fn fixed_multiplier(stop: &Stop, mode: Mode, pace: &Pace) -> Option<f
     }
 }
 
-/// What the row does next, seeing that it is `now` and will be `ahead` with this multiplier.
-pub(super) fn next_mode(
-    stop: &Stop,
-    mode: Mode,
-    [now, ahead]: [f32; 2],
-    multiplier: f32,
-    pace: &Pace,
-) -> Mode {
+/// What the row does next, seeing where motions lead.
+pub(super) fn next_mode(stop: &Stop, mode: Mode, lead: &Lead, pace: &Pace) -> Mode {
+    let &Lead { ahead, way, multiplier } = lead;
     if stop.low >= stop.high {
         return Mode::AtLow;
     }
@@ -92,7 +98,7 @@ pub(super) fn next_mode(
         Some(motor) if motor.speed < 0.0 => -strongest,
         _ => 0.0,
     };
-    let way = motor.map_or(0.0, |motor| motor.speed * pace.h);
+    let wanted = motor.map_or(0.0, |motor| motor.speed * pace.h);
     match mode {
         Mode::AtLow if multiplier >= share => mode,
         Mode::AtHigh if multiplier <= share => mode,
@@ -102,8 +108,8 @@ pub(super) fn next_mode(
         _ if motor.is_none() => Mode::Within,
         Mode::Within if multiplier > strongest => Mode::Forwards,
         Mode::Within if multiplier < -strongest => Mode::Backwards,
-        Mode::Forwards if ahead - now > way + SLACK => Mode::Within,
-        Mode::Backwards if ahead - now < way - SLACK => Mode::Within,
+        Mode::Forwards if way > wanted + SLACK => Mode::Within,
+        Mode::Backwards if way < wanted - SLACK => Mode::Within,
         _ => mode,
     }
 }
