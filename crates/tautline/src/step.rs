@@ -39,6 +39,7 @@ impl World {
         let h = dt / self.settings.substeps as f32;
         self.begin_rigid(h, &mut report, &mut watch);
         let has_matter = self.bodies.iter().any(Body::is_awake_matter);
+        self.scratch.contacts.clear();
         let lent = self.lend_weight();
         for index in 0..self.settings.substeps {
             self.pull_grabs(h, (index + 1) as f32 / self.settings.substeps as f32);
