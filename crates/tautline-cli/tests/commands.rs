@@ -39,7 +39,7 @@ fn run_prints_and_writes_the_same_statistics() {
         serde_json::from_str(&fs::read_to_string(folder.path().join("new/s.json")).unwrap()).unwrap();
     assert_eq!(printed, written);
     assert_eq!((printed["scene"].as_str(), printed["bodies"].as_u64()), (Some("tower"), Some(2)));
-    assert_eq!((printed["particles"].as_u64(), printed["steps"].as_u64()), (Some(16), Some(30)));
+    assert_eq!((printed["particles"].as_u64(), printed["steps"].as_u64()), (Some(8), Some(30)));
     assert_eq!((printed["escaped"].as_u64(), printed["nonfinite"].as_u64()), (Some(0), Some(0)));
     for key in
         ["ms_per_step", "max_penetration_mm", "mean_penetration_mm", "max_stick_strain", "kinetic_energy"]
@@ -148,11 +148,11 @@ fn scene_files_are_run_and_checked() {
     let folder = tempdir().unwrap();
     fs::write(folder.path().join("mine.json"), SCENE).unwrap();
     let summary = json(folder.path(), &["run", "mine.json", "--json"]);
-    assert_eq!((summary["scene"].as_str(), summary["particles"].as_u64()), (Some("mine"), Some(8)));
+    assert_eq!((summary["scene"].as_str(), summary["particles"].as_u64()), (Some("mine"), Some(4)));
     let refused = errors(folder.path(), &["run", "mine.json", "--set", "n=1"], 2);
     assert!(refused[0].contains("has no parameters"), "{refused:?}");
     let text = printed(folder.path(), &["check", "mine.json"]);
-    assert_eq!(text, "mine.json: no problems; 2 bodies, 8 particles\n");
+    assert_eq!(text, "mine.json: no problems; 2 bodies, 4 particles\n");
     let checked = json(folder.path(), &["check", "mine.json", "--json"]);
     assert_eq!((checked["ok"].as_bool(), checked["bodies"].as_u64()), (Some(true), Some(2)));
 }
