@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use tautline::mesh::primitives;
-use tautline::{BodyHandle, BodyView, HalfSpace, Settings, Truss, TrussBody, World};
+use tautline::{BodyHandle, BodyView, HalfSpace, RigidBody, Settings, Shape, World};
 
 use crate::Failure;
 use crate::engine::Engine;
@@ -25,7 +25,8 @@ impl Ours {
             world.add(HalfSpace::new(axis, 0.0).friction(FRICTION))?;
             world.add(HalfSpace::new(-axis, -scene.side).friction(FRICTION))?;
         }
-        let shape = Arc::new(Truss::from_mesh(&primitives::icosahedron(icosahedron::RADIUS as f32)?)?);
+        let corners = primitives::icosahedron(icosahedron::RADIUS as f32)?.positions;
+        let shape = Arc::new(Shape::convex_hull(&corners)?);
         let bodies = scene.bodies.iter().map(|body| world.add(description(&shape, body)));
         let bodies = bodies.collect::<Result<_, _>>()?;
         Ok(Self { world, bodies })
@@ -46,8 +47,8 @@ impl Engine for Ours {
     }
 }
 
-fn description(shape: &Arc<Truss>, body: &State) -> TrussBody {
-    TrussBody::new(shape)
+fn description(shape: &Arc<Shape>, body: &State) -> RigidBody {
+    RigidBody::new(shape)
         .position(body.position)
         .rotation(body.rotation)
         .velocity(body.velocity)
@@ -58,14 +59,6 @@ fn description(shape: &Arc<Truss>, body: &State) -> TrussBody {
 
 fn state(body: BodyView<'_>) -> Result<State, Failure> {
     let (position, rotation) = body.pose().ok_or("tautline gives a body no pose")?;
-    Ok(State { position, rotation, velocity: body.velocity(), angular_velocity: spin(body, position) })
-}
-
-/// Σ r × v over ⅔ Σ r², as the particles stand at the vertices of an icosahedron.
-fn spin(body: BodyView<'_>, center: Vec3) -> Vec3 {
-    let arms = body.positions().iter().map(|&position| position - center);
-    let (momentum, inertia) = (0u32..).zip(arms).fold((Vec3::ZERO, 0.0), |(momentum, inertia), (i, arm)| {
-        (momentum + arm.cross(body.particle_velocity(i)), inertia + 2.0 / 3.0 * arm.length_squared())
-    });
-    momentum / inertia
+    let (velocity, angular_velocity) = (body.velocity(), body.angular_velocity());
+    Ok(State { position, rotation, velocity, angular_velocity })
 }

@@ -1,15 +1,16 @@
 //! Every case with a known answer, against its demand.
 
-use tautline_scene::validate::{Conditions, Outcome, cases, figures, run};
+use tautline_scene::validate::{Conditions, Figures, Outcome, cases, figures, run};
 
 fn report(outcomes: &[Outcome]) -> String {
     let mut text = String::new();
     for outcome in outcomes.iter().filter(|outcome| !outcome.pass) {
         text += &format!("\n{} {}", outcome.id, outcome.name);
         for part in outcome.parts.iter().filter(|part| !part.pass) {
+            let Figures { measured, expected, error, demand, unit, error_unit } = part.figures;
             text += &format!(
-                "\n    {}: {} {}, expected {}; off by {:.2e} {}, demanded {:e}",
-                part.name, part.measured, part.unit, part.expected, part.error, part.error_unit, part.demand
+                "\n    {}: {measured} {unit}, expected {expected}; off by {error:.2e} {error_unit}, demanded {demand:e}",
+                part.name
             );
         }
     }

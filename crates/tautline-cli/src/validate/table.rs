@@ -1,6 +1,6 @@
 //! The results for people.
 
-use tautline_scene::validate::{Outcome, Part};
+use tautline_scene::validate::{Figures, Outcome, Part};
 
 use crate::output;
 
@@ -38,25 +38,21 @@ pub(super) fn table(outcomes: &[Outcome], in_full: bool) -> String {
 }
 
 fn summary(outcome: &Outcome) -> Vec<String> {
-    let worst = &outcome.worst;
-    vec![
-        format!("{:>4}  {}", outcome.id, outcome.name),
-        quantity(worst.measured, worst.unit),
-        quantity(worst.expected, worst.unit),
-        quantity(worst.error, worst.error_unit),
-        quantity(worst.demand, worst.error_unit),
-        verdict(outcome.pass),
-    ]
+    row(format!("{:>4}  {}", outcome.id, outcome.name), &outcome.figures, outcome.pass)
 }
 
 fn part_row(part: &Part) -> Vec<String> {
+    row(format!("      · {}", part.name), &part.figures, part.pass)
+}
+
+fn row(name: String, figures: &Figures, pass: bool) -> Vec<String> {
     vec![
-        format!("      · {}", part.name),
-        quantity(part.measured, part.unit),
-        quantity(part.expected, part.unit),
-        quantity(part.error, part.error_unit),
-        quantity(part.demand, part.error_unit),
-        verdict(part.pass),
+        name,
+        quantity(figures.measured, figures.unit),
+        quantity(figures.expected, figures.unit),
+        quantity(figures.error, figures.error_unit),
+        quantity(figures.demand, figures.error_unit),
+        verdict(pass),
     ]
 }
 

@@ -67,6 +67,16 @@ impl Conditions {
 pub struct Part {
     /// Which one.
     pub name: String,
+    /// What was compared.
+    #[serde(flatten)]
+    pub figures: Figures,
+    /// Whether the error is within the demand. One that is not a number is not.
+    pub pass: bool,
+}
+
+/// What was measured, and what was demanded.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Figures {
     /// What the engine gave, in `unit`.
     pub measured: f64,
     /// What it should be, in `unit`.
@@ -79,8 +89,6 @@ pub struct Part {
     pub unit: &'static str,
     /// Unit of `error` and `demand`; empty for a share.
     pub error_unit: &'static str,
-    /// Whether the error is within the demand. One that is not a number is not.
-    pub pass: bool,
 }
 
 impl Part {
@@ -130,21 +138,18 @@ impl Part {
         [error, demand]: [f64; 2],
         [unit, error_unit]: [&'static str; 2],
     ) -> Self {
-        Self { name, measured, expected, error, demand, unit, error_unit, pass: error <= demand }
+        let figures = Figures { measured, expected, error, demand, unit, error_unit };
+        Self { name, figures, pass: error <= demand }
     }
 
     /// The error in units of the demand; infinite if there is no number.
     pub fn ratio(&self) -> f64 {
-        match (self.error.is_finite(), self.demand > 0.0) {
-            (false, _) => f64::INFINITY,
-            (true, true) => self.error / self.demand,
-            (true, false) => {
-                if self.error > 0.0 {
-                    f64::INFINITY
-                } else {
-                    0.0
-                }
-            }
+        let Figures { error, demand, .. } = self.figures;
+        match error {
+            error if !error.is_finite() => f64::INFINITY,
+            error if demand > 0.0 => error / demand,
+            error if error > 0.0 => f64::INFINITY,
+            _ => 0.0,
         }
     }
 }
@@ -160,9 +165,11 @@ pub struct Outcome {
     pub name: &'static str,
     /// The answer, or what has to hold.
     pub formula: &'static str,
-    /// The part that comes nearest to its demand, or is furthest beyond it.
+    /// The name of the part that comes nearest to its demand, or is furthest beyond it.
+    pub part: String,
+    /// What was compared in it.
     #[serde(flatten)]
-    pub worst: Worst,
+    pub figures: Figures,
     /// Whether all parts are within their demands.
     pub pass: bool,
     /// What there is to know about the case.
@@ -171,47 +178,20 @@ pub struct Outcome {
     pub parts: Vec<Part>,
 }
 
-/// The figures of the part that counts for its case.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Worst {
-    /// Its name.
-    pub part: String,
-    /// See [`Part::measured`].
-    pub measured: f64,
-    /// See [`Part::expected`].
-    pub expected: f64,
-    /// See [`Part::error`].
-    pub error: f64,
-    /// See [`Part::demand`].
-    pub demand: f64,
-    /// See [`Part::unit`].
-    pub unit: &'static str,
-    /// See [`Part::error_unit`].
-    pub error_unit: &'static str,
-}
-
 impl Outcome {
     pub(super) fn new(case: &Case, parts: Vec<Part>) -> Self {
         // Of equal ones the first.
         let worst = parts.iter().rev().max_by(|a, b| a.ratio().total_cmp(&b.ratio()));
         let none = Part::at_most("", f64::NAN, 0.0, "");
         let worst = worst.unwrap_or(&none);
-        let figures = Worst {
-            part: worst.name.clone(),
-            measured: worst.measured,
-            expected: worst.expected,
-            error: worst.error,
-            demand: worst.demand,
-            unit: worst.unit,
-            error_unit: worst.error_unit,
-        };
         let pass = worst.pass && parts.iter().all(|part| part.pass);
         Self {
             id: case.id,
             group: case.group,
             name: case.name,
             formula: case.formula,
-            worst: figures,
+            part: worst.name.clone(),
+            figures: worst.figures,
             pass,
             note: case.note,
             parts,
@@ -251,7 +231,7 @@ mod tests {
             Part::at_most("none", 0.0, 0.0, ""),
         ];
         let outcome = Outcome::new(&case, parts);
-        assert_eq!((outcome.worst.part.as_str(), outcome.pass), ("beyond", false));
+        assert_eq!((outcome.part.as_str(), outcome.pass), ("beyond", false));
         assert!((outcome.ratio() - 2.0).abs() < 1e-9);
     }
 }

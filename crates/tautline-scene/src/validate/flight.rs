@@ -18,8 +18,8 @@ fn free_fall() -> Case {
         Trial::one(move |conditions| {
             let [measured, expected] = fly(conditions, &cube(1.0)?, [start, velocity, spin])?;
             let mut part = Part::absolute(name, [measured.y, expected.y], demand, "m");
-            part.error = (measured - expected).length();
-            part.pass = part.error <= demand;
+            part.figures.error = (measured - expected).length();
+            part.pass = part.figures.error <= demand;
             Ok(part)
         })
     };

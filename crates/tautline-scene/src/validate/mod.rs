@@ -23,7 +23,7 @@ mod stack;
 use rayon::prelude::*;
 use tautline::Error;
 
-pub use case::{Case, Conditions, Outcome, Part, Worst};
+pub use case::{Case, Conditions, Figures, Outcome, Part};
 pub use peers::{Figure, PEERS, Peer, figures};
 
 /// All cases, by number.

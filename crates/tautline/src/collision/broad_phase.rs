@@ -1,6 +1,6 @@
 //! Pairs of bodies whose boxes overlap.
 
-use glam::Vec3;
+use glam::{Mat3, Vec3};
 
 use crate::settings::BroadPhase;
 
@@ -18,6 +18,18 @@ impl Aabb {
             (low.min(point), high.max(point))
         });
         Self { low: low - margin, high: high + margin }
+    }
+
+    /// The smallest box around a box that is turned, from `low` to `high` in a frame with these axes.
+    pub(crate) fn around_turned(center: Vec3, axes: &Mat3, low: Vec3, high: Vec3) -> Self {
+        let (middle, half) = (center + *axes * ((low + high) * 0.5), (high - low) * 0.5);
+        let reach = axes.x_axis.abs() * half.x + axes.y_axis.abs() * half.y + axes.z_axis.abs() * half.z;
+        Self { low: middle - reach, high: middle + reach }
+    }
+
+    /// Larger on all sides, by so much (m).
+    pub(crate) fn grown(&self, by: f32) -> Self {
+        Self { low: self.low - by, high: self.high + by }
     }
 
     pub(crate) fn overlaps(&self, other: &Self) -> bool {

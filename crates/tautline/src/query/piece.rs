@@ -70,11 +70,8 @@ impl Pose {
     /// The box around a box in this frame.
     pub(crate) fn bounds(self, low: Vec3, high: Vec3) -> Aabb {
         let axes = Mat3::from_quat(self.rotation.as_quat());
-        let (center, half) = ((low + high) * 0.5, (high - low) * 0.5);
-        let middle = (self.position + self.rotation * center.as_dvec3()).as_vec3();
-        let reach = axes.x_axis.abs() * half.x + axes.y_axis.abs() * half.y + axes.z_axis.abs() * half.z;
-        let margin = ROUNDING * (middle.abs() + reach).max_element();
-        Aabb { low: middle - reach - margin, high: middle + reach + margin }
+        let bounds = Aabb::around_turned(self.position.as_vec3(), &axes, low, high);
+        bounds.grown(ROUNDING * bounds.low.abs().max(bounds.high.abs()).max_element())
     }
 }
 

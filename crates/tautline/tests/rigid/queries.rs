@@ -120,7 +120,10 @@ proptest! {
         let mut expected: Vec<(f64, BodyHandle)> =
             things.iter().zip(&bodies).filter_map(|(thing, body)| Some((enter(thing)?, *body))).collect();
         // Grazing rays may hit or miss.
-        let near = |thing: &Thing| (0..2000).map(|i| thing.distance(origin.as_dvec3() + direction * (f64::from(i) * 0.01)).abs()).fold(f64::INFINITY, f64::min);
+        let along = |i: i32| origin.as_dvec3() + direction * (f64::from(i) * 0.01);
+        let near = |thing: &Thing| {
+            (0..2000).map(|i| thing.distance(along(i)).abs()).fold(f64::INFINITY, f64::min)
+        };
         prop_assume!(things.iter().all(|thing| enter(thing).is_some() || near(thing) > 1e-3));
         expected.sort_by(|a, b| a.0.total_cmp(&b.0));
         let hits = world.ray_cast_all(origin, target - origin, 100.0, ALL).unwrap();

@@ -116,13 +116,6 @@ impl Memory {
     }
 }
 
-/// How far B lies beyond A along `axis`, unit, from A to B, in A's frame: a lower bound of their distance, in m.
-#[inline(always)]
-pub(crate) fn separation_along<L: Lanes>(a: &Convex, b: &Convex, b_in_a: &Placement, axis: Vec3) -> f32 {
-    let pair = Pair { a, b, b_in_a };
-    pair.support::<L>(axis).1 - pair.radii()
-}
-
 /// Where A and B touch, or will within `margin` m; no points if they are further apart.
 ///
 /// The normal is that of a face where one takes part in the contact, else the direction of the distance, or

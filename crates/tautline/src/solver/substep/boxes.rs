@@ -63,14 +63,15 @@ impl RigidSolver {
         let axes = Mat3::from_cols(axes[0], axes[1], axes[2]);
         let need = self.crew.tracks[place / LANES].need.0[lane];
         let room = need * (1.0 + STEPS_AHEAD) + SKIN * rigid.shape.reach();
-        let parts = rigid.shape.parts().iter().map(|part| world_box(center, axes, part.low, part.high));
+        let parts =
+            rigid.shape.parts().iter().map(|part| Aabb::around_turned(center, &axes, part.low, part.high));
         let nothing = Aabb { low: Vec3::INFINITY, high: Vec3::NEG_INFINITY };
         let surface = rigid.shape.surface().map(|surface| surface.bounds());
-        let surface = surface.map(|(low, high)| world_box(center, axes, low, high));
+        let surface = surface.map(|(low, high)| Aabb::around_turned(center, &axes, low, high));
         let bounds = parts
             .chain(surface)
             .fold(nothing, |sum, part| Aabb { low: sum.low.min(part.low), high: sum.high.max(part.high) });
-        Boxed { body, room, center, axes, bounds: grown(bounds, room) }
+        Boxed { body, room, center, axes, bounds: bounds.grown(room) }
     }
 
     fn pair_up(&mut self, bodies: &[Body], boxed: &[Boxed], settings: &Settings, keys: &mut Vec<Key>) {
@@ -112,9 +113,9 @@ fn pair_parts((a, rigid_a): (&Boxed, &Rigid), (b, rigid_b): (&Boxed, &Rigid), ke
         return;
     }
     for (part_a, box_a) in (0..).zip(parts_a) {
-        let box_a = grown(world_box(a.center, a.axes, box_a.low, box_a.high), a.room);
+        let box_a = Aabb::around_turned(a.center, &a.axes, box_a.low, box_a.high).grown(a.room);
         for (part_b, box_b) in (0..).zip(parts_b) {
-            let box_b = grown(world_box(b.center, b.axes, box_b.low, box_b.high), b.room);
+            let box_b = Aabb::around_turned(b.center, &b.axes, box_b.low, box_b.high).grown(b.room);
             if box_a.overlaps(&box_b) {
                 keys.push(Key { a: a.body, b: b.body, part_a, part_b });
             }
@@ -128,7 +129,7 @@ fn pair_with_triangles((a, parts): (&Boxed, &[Part]), (b, surface): (&Boxed, &Su
     let to_b = b.axes.transpose();
     let (center, axes) = (to_b * (a.center - b.center), to_b * a.axes);
     for (part_a, part) in (0..).zip(parts) {
-        let near = grown(world_box(center, axes, part.low, part.high), a.room + b.room);
+        let near = Aabb::around_turned(center, &axes, part.low, part.high).grown(a.room + b.room);
         triangles.clear();
         surface.triangles_in(near.low, near.high, &mut triangles);
         keys.extend(triangles.iter().map(|&part_b| Key { a: a.body, b: b.body, part_a, part_b }));
@@ -156,7 +157,8 @@ fn pair_with_half_spaces(bodies: &[Body], boxed: &[Boxed], keys: &mut Vec<Key>) 
                 continue;
             }
             for (part_a, part) in (0..).zip(rigid.shape.parts()) {
-                let bounds = grown(world_box(entry.center, entry.axes, part.low, part.high), entry.room);
+                let bounds =
+                    Aabb::around_turned(entry.center, &entry.axes, part.low, part.high).grown(entry.room);
                 if reaches_over(&bounds, wall) {
                     keys.push(Key { a: entry.body, b: wall_body, part_a, part_b: 0 });
                 }
@@ -168,17 +170,6 @@ fn pair_with_half_spaces(bodies: &[Body], boxed: &[Boxed], keys: &mut Vec<Key>) 
 fn reaches_over(bounds: &Aabb, wall: &HalfSpace) -> bool {
     let lowest = Vec3::select(wall.normal.cmpgt(Vec3::ZERO), bounds.low, bounds.high);
     wall.normal.dot(lowest) <= wall.offset
-}
-
-/// The box around a box that is turned.
-fn world_box(center: Vec3, axes: Mat3, low: Vec3, high: Vec3) -> Aabb {
-    let (middle, half) = (center + axes * ((low + high) * 0.5), (high - low) * 0.5);
-    let reach = axes.x_axis.abs() * half.x + axes.y_axis.abs() * half.y + axes.z_axis.abs() * half.z;
-    Aabb { low: middle - reach, high: middle + reach }
-}
-
-fn grown(bounds: Aabb, by: f32) -> Aabb {
-    Aabb { low: bounds.low - by, high: bounds.high + by }
 }
 
 fn is_dynamic(body: &Body) -> bool {

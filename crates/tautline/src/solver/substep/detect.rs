@@ -8,10 +8,8 @@ use glam::{Mat3, Vec3};
 
 use super::held::{Held, HeldPoint};
 use super::pairs::{Detail, Pair};
-use crate::body::{Body, Substance};
-use crate::geometry::manifold::{
-    Manifold, Placement, Scratch, collide, collide_plane, collide_triangle, separation_along,
-};
+use crate::body::{Body, HalfSpace, Substance};
+use crate::geometry::manifold::{Manifold, Placement, Scratch, collide, collide_plane, collide_triangle};
 use crate::shape::{Convex, Surface};
 use crate::simd::{Kernel, Lanes, Row};
 
@@ -47,6 +45,12 @@ struct Placed {
     /// How far its rotation moves its points in a whole step, in m.
     turning: f32,
     reach: f32,
+}
+
+impl Placed {
+    /// At rest at the origin.
+    const WORLD: Self =
+        Self { center: Vec3::ZERO, axes: Mat3::IDENTITY, motion: Vec3::ZERO, turning: 0.0, reach: 0.0 };
 }
 
 impl Scene<'_> {
@@ -98,37 +102,14 @@ impl Kernel for Detect<'_> {
 #[inline(always)]
 fn update<L: Lanes>(scene: Scene<'_>, pair: &mut Pair, detail: &mut Detail, scratch: &mut Scratch) {
     let a = scene.placed(pair.a);
+    let Some(part_a) = part(scene.bodies, pair.a, detail.part_a) else { return };
     let (manifold, b) = match &scene.bodies[pair.b as usize].substance {
         Substance::HalfSpace(wall) => {
-            let along = a.axes.transpose() * wall.normal;
-            let offset = wall.offset - wall.normal.dot(a.center);
-            let closing = -wall.normal.dot(a.motion);
-            let margin = scene.margin + LOOK_AHEAD * closing.max(0.0) + 0.5 * a.turning;
-            let convex = part(scene.bodies, pair.a, detail.part_a);
-            let Some(convex) = convex else { return };
-            if -along.dot(Vec3::ZERO) - offset - a.reach > margin {
-                pair.points = 0;
-                return;
-            }
-            let mut manifold = collide_plane::<L>(convex, along, offset, scratch, margin);
-            for point in &mut manifold.points {
-                point.on_b = a.center + a.axes * point.on_b;
-            }
-            (
-                manifold,
-                Placed {
-                    center: Vec3::ZERO,
-                    axes: Mat3::IDENTITY,
-                    motion: Vec3::ZERO,
-                    turning: 0.0,
-                    reach: 0.0,
-                },
-            )
+            (collide_with_wall::<L>(scene, part_a, &a, wall, scratch), Placed::WORLD)
         }
-        _ => {
+        Substance::Rigid(rigid) => {
             let b = scene.placed(pair.b);
-            let Some(part_a) = part(scene.bodies, pair.a, detail.part_a) else { return };
-            let manifold = match surface(scene.bodies, pair.b) {
+            let manifold = match rigid.shape.surface() {
                 Some(surface) => {
                     collide_with_triangle::<L>(scene, (part_a, surface), (&a, &b), detail, scratch)
                 }
@@ -139,6 +120,7 @@ fn update<L: Lanes>(scene: Scene<'_>, pair: &mut Pair, detail: &mut Detail, scra
             };
             (manifold, b)
         }
+        Substance::Truss { .. } | Substance::Deformable(_) => return,
     };
     pair.points = manifold.count as u32;
     if manifold.count > 0 {
@@ -155,11 +137,26 @@ fn part(bodies: &[Body], body: u32, part: u32) -> Option<&Convex> {
     }
 }
 
-fn surface(bodies: &[Body], body: u32) -> Option<&Surface> {
-    match &bodies[body as usize].substance {
-        Substance::Rigid(rigid) => rigid.shape.surface(),
-        _ => None,
+/// The points on the wall are in the world's frame.
+#[inline(always)]
+fn collide_with_wall<L: Lanes>(
+    scene: Scene<'_>,
+    part: &Convex,
+    a: &Placed,
+    wall: &HalfSpace,
+    scratch: &mut Scratch,
+) -> Manifold {
+    let offset = wall.offset - wall.normal.dot(a.center);
+    let closing = -wall.normal.dot(a.motion);
+    let margin = scene.margin + LOOK_AHEAD * closing.max(0.0) + 0.5 * a.turning;
+    if -offset - a.reach > margin {
+        return Manifold::default();
     }
+    let mut manifold = collide_plane::<L>(part, a.axes.transpose() * wall.normal, offset, scratch, margin);
+    for point in &mut manifold.points {
+        point.on_b = a.center + a.axes * point.on_b;
+    }
+    manifold
 }
 
 /// Where the frame of b is in that of a, how a approaches b in a step (m, in a's frame), and how far ahead their
@@ -196,17 +193,12 @@ fn collide_parts<L: Lanes>(
 ) -> Manifold {
     let (b_in_a, approach, base) = relative(scene, a, b);
     let axis = detail.memory.axis;
-    let is_new = axis == Vec3::ZERO;
-    if is_new {
-        let margin = base + LOOK_AHEAD * approach.length();
-        return collide::<L>(part_a, part_b, &b_in_a, (&mut detail.memory, scratch), margin);
-    }
-    let margin = base + LOOK_AHEAD * (axis.dot(approach).max(0.0) + 0.1 * approach.length());
-    let separation = separation_along::<L>(part_a, part_b, &b_in_a, axis);
-    if separation > margin {
-        detail.memory.separation = separation;
-        return Manifold::default();
-    }
+    let closing = if axis == Vec3::ZERO {
+        approach.length()
+    } else {
+        axis.dot(approach).max(0.0) + 0.1 * approach.length()
+    };
+    let margin = base + LOOK_AHEAD * closing;
     collide::<L>(part_a, part_b, &b_in_a, (&mut detail.memory, scratch), margin)
 }
 

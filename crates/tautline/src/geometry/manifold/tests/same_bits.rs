@@ -3,7 +3,6 @@
 use glam::Vec3;
 
 use super::distances::{place, zoo};
-use super::oracle::separation;
 use super::shapes::*;
 use super::*;
 
@@ -53,29 +52,6 @@ fn foreign_and_broken_memory_costs_time_only() {
     }
     let nowhere = Placement { translation: Vec3::NAN, ..place(&mut random, &cube, &cube, 0.0) };
     assert_eq!(collide_new(&cube, &cube, &nowhere, 0.1).count, 0);
-}
-
-struct Along<'a>(&'a Convex, &'a Convex, &'a Placement, Vec3);
-
-impl Kernel for Along<'_> {
-    type Output = f32;
-
-    #[inline(always)]
-    fn run<L: Lanes>(self) -> f32 {
-        separation_along::<L>(self.0, self.1, self.2, self.3)
-    }
-}
-
-#[test]
-fn the_separation_along_an_axis_is_that_of_the_foremost_points() {
-    let (zoo, mut random) = (zoo(), Random(43));
-    for a in &zoo {
-        for b in &zoo {
-            let (b_in_a, axis) = (placed(random.rotation(), random.vector() * 2.0), random.direction());
-            let found = run(Instructions::Widest, Along(a, b, &b_in_a, axis));
-            assert!((f64::from(found) - separation(a, b, &b_in_a, axis)).abs() < 1e-6);
-        }
-    }
 }
 
 #[test]
