@@ -3,10 +3,11 @@
 mod kinds;
 mod pendulum;
 mod refusals;
+mod together;
 
 use std::sync::Arc;
 
-use tautline::{BodyHandle, Settings, Shape, Vec3, World};
+use tautline::{BodyHandle, RigidBody, Settings, Shape, Vec3, World};
 
 /// 1/60 s, the usual step.
 const DT: f32 = 1.0 / 60.0;
@@ -32,4 +33,9 @@ fn run(world: &mut World, steps: usize) {
 
 fn center(world: &World, body: BodyHandle) -> Vec3 {
     world.body(body).unwrap().center_of_mass()
+}
+
+fn add(world: &mut World, half: Vec3, position: Vec3, mass: f32) -> BodyHandle {
+    let body = RigidBody::new(&cuboid(half.x, half.y, half.z)).position(position).mass(mass);
+    world.add(body).unwrap()
 }
