@@ -9,6 +9,7 @@ mod motion;
 mod picking;
 mod queries;
 mod refusals;
+mod sleep;
 mod stacks;
 
 use std::sync::Arc;
