@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use crate::body::Body;
+use crate::body::{Body, Frame, Motion};
 use crate::collision::{Aabb, Contact};
 use crate::particles::Particles;
 use crate::settings::Sleep;
@@ -36,23 +36,37 @@ pub(crate) fn wake_touched(
 }
 
 /// Wakes the sleepers whose boxes come near that of body `index`, those near these, and so on: what a body
-/// carries would otherwise hover once it is gone. Everything is near a half-space.
-pub(crate) fn wake_around(bodies: &mut [Body], positions: &[Vec3], index: usize) {
+/// carries would otherwise hover once it is gone. Everything is near a half-space. Returns all of them, `index` first:
+/// what rigid bodies rest on each other is known better from their contacts, and left to these.
+pub(crate) fn wake_around(bodies: &mut [Body], positions: &[Vec3], index: usize) -> Vec<u32> {
     let bounds = |body: &Body, margin: f32| {
         let particles = &positions[body.particles.clone()];
-        (!particles.is_empty()).then(|| Aabb::around(particles, body.reach() + margin))
+        match body.rigid() {
+            Some(rigid) => {
+                let center = Frame::of_particles(particles).center;
+                Some(Aabb::around(&[center], rigid.shape.reach() + margin))
+            }
+            None => (!particles.is_empty()).then(|| Aabb::around(particles, body.reach() + margin)),
+        }
     };
-    let mut woken = vec![index];
-    while let Some(index) = woken.pop() {
-        let source = bounds(&bodies[index], NEAR);
+    let mut woken = vec![index as u32];
+    let mut next = 0;
+    while let Some(&index) = woken.get(next) {
+        next += 1;
+        let source = &bodies[index as usize];
+        let (is_free, source) = (
+            source.rigid().is_some_and(|rigid| rigid.traits.motion == Motion::Dynamic),
+            bounds(source, NEAR),
+        );
         for (other, body) in bodies.iter_mut().enumerate().filter(|(_, body)| body.rest.asleep) {
             let near = |bounds: Aabb| source.is_none_or(|source| source.overlaps(&bounds));
-            if bounds(body, 0.0).is_some_and(near) {
+            if !(is_free && body.is_rigid()) && bounds(body, 0.0).is_some_and(near) {
                 body.wake();
-                woken.push(other);
+                woken.push(other as u32);
             }
         }
     }
+    woken
 }
 
 /// How much faster than what wakes a body is what wakes all around it.
@@ -70,18 +84,8 @@ pub(crate) fn put_to_sleep(
     sleep: Sleep,
     dt: f32,
 ) {
-    let reach = sleep.speed * sleep.seconds;
     for body in bodies.iter_mut().filter(|body| body.is_awake_matter()) {
-        let positions = &particles.position[body.particles.clone()];
-        let drifted = |(x, reference): (&Vec3, &Vec3)| x.distance_squared(*reference) > reach * reach;
-        let rest = &mut body.rest;
-        if rest.reference.len() != positions.len() || positions.iter().zip(&rest.reference).any(drifted) {
-            rest.reference.clear();
-            rest.reference.extend_from_slice(positions);
-            rest.still_for = 0.0;
-        } else {
-            rest.still_for += dt;
-        }
+        note_drift(body, &particles.position, sleep, dt);
     }
     let restless = |body: &Body| body.is_awake() && body.rest.still_for < sleep.seconds;
     let mut may_sleep: Vec<bool> =
@@ -94,5 +98,20 @@ pub(crate) fn put_to_sleep(
     for (body, _) in bodies.iter_mut().zip(may_sleep).filter(|(_, may_sleep)| *may_sleep) {
         body.rest.asleep = true;
         particles.displacement[body.particles.clone()].fill(Vec3::ZERO);
+    }
+}
+
+/// Counts for how long a body's particles have been near where they were, after a step of `dt` (s).
+pub(crate) fn note_drift(body: &mut Body, positions: &[Vec3], sleep: Sleep, dt: f32) {
+    let reach = sleep.speed * sleep.seconds;
+    let positions = &positions[body.particles.clone()];
+    let drifted = |(x, reference): (&Vec3, &Vec3)| x.distance_squared(*reference) > reach * reach;
+    let rest = &mut body.rest;
+    if rest.reference.len() != positions.len() || positions.iter().zip(&rest.reference).any(drifted) {
+        rest.reference.clear();
+        rest.reference.extend_from_slice(positions);
+        rest.still_for = 0.0;
+    } else {
+        rest.still_for += dt;
     }
 }

@@ -66,7 +66,12 @@ impl World {
         joints.events.clear();
         rigid.begin((bodies, particles, joints), settings, h);
         watch.lap(Phase::FindPairs);
-        report.contacts += rigid.find_contacts(bodies, settings, h);
+        let mut contacts = rigid.find_contacts(bodies, settings, h);
+        if rigid.wake_touched((bodies, joints), settings, h) {
+            rigid.begin((bodies, particles, joints), settings, h);
+            contacts = rigid.find_contacts(bodies, settings, h);
+        }
+        report.contacts += contacts;
         report.pairs += rigid.pair_count();
         watch.lap(Phase::FindContacts);
         rigid.prepare(settings, h);
@@ -212,7 +217,9 @@ impl World {
     fn rest(&mut self, dt: f32) {
         match self.settings.sleep {
             Some(sleep) => {
-                put_to_sleep(&mut self.bodies, &mut self.particles, &self.scratch.contacts, sleep, dt);
+                let Self { bodies, particles, joints, rigid, scratch, .. } = self;
+                put_to_sleep(bodies, particles, &scratch.contacts, sleep, dt);
+                rigid.put_to_sleep((bodies, particles, joints), sleep, dt);
             }
             None => self.bodies.iter_mut().for_each(Body::wake),
         }

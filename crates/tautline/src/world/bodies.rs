@@ -9,7 +9,6 @@ use crate::body::{
     Body, BodyDescription, BuiltDeformable, HalfSpace, Motion, RigidBody, Substance, Surface, TrussBody,
 };
 use crate::error::{Error, positive, within};
-use crate::rest::wake_around;
 use crate::slots::BodyHandle;
 
 impl World {
@@ -104,7 +103,7 @@ impl World {
         let index = self.slots.index(handle)?;
         self.index.take();
         self.grabs.remove_body(handle);
-        wake_around(&mut self.bodies, &self.particles.position, index);
+        self.wake_neighbours(index);
         let range = self.bodies[index].particles.clone();
         self.particles.remove(range.clone());
         self.bodies.remove(index);

@@ -11,7 +11,7 @@ use std::sync::OnceLock;
 
 use glam::Vec3;
 
-use crate::body::Body;
+use crate::body::{Body, Motion};
 use crate::collision::{Candidate, Contact, NarrowPhase, PairCache};
 use crate::error::Error;
 use crate::joint::Joints;
@@ -110,6 +110,7 @@ impl World {
     pub fn set_settings(&mut self, settings: Settings) -> Result<(), Error> {
         settings.validate()?;
         self.settings = settings;
+        self.rigid.invalidate();
         self.bodies.iter_mut().for_each(Body::wake);
         Ok(())
     }
@@ -129,13 +130,15 @@ impl World {
 
     /// Wakes the sleepers that may rest on a body.
     fn wake_neighbours(&mut self, index: usize) {
-        wake_around(&mut self.bodies, &self.particles.position, index);
+        let woken = wake_around(&mut self.bodies, &self.particles.position, index);
+        self.rigid.wake_islands(&mut self.bodies, &self.joints, &woken);
         self.rigid.invalidate();
     }
 
-    /// Wakes the sleepers about a fixed body that comes or goes. A body that moves wakes what it touches.
+    /// Wakes the sleepers about a fixed or kinematic body that comes or goes. A body that moves wakes what it touches.
     fn wake_around_fixed(&mut self, index: usize) {
-        if self.bodies[index].fixed {
+        let body = &self.bodies[index];
+        if body.fixed || body.rigid().is_some_and(|rigid| rigid.traits.motion != Motion::Dynamic) {
             self.wake_neighbours(index);
         }
     }

@@ -72,9 +72,9 @@ impl World {
         let index = self.slots.index(handle)?;
         surface.validate()?;
         self.bodies[index].surface = surface;
-        self.rigid.forget_contacts(index);
         self.wake_body(index);
         self.wake_neighbours(index);
+        self.rigid.forget_contacts(index);
         Ok(())
     }
 

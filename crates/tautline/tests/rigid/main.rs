@@ -9,6 +9,7 @@ mod motion;
 mod picking;
 mod queries;
 mod refusals;
+mod sleep;
 mod stacks;
 mod surfaces;
 

@@ -37,9 +37,9 @@ const LOOK_AHEAD: f32 = 1.5;
 
 /// A body's place in the world.
 #[derive(Clone, Copy)]
-struct Placed {
-    center: Vec3,
-    axes: Mat3,
+pub(super) struct Placed {
+    pub(super) center: Vec3,
+    pub(super) axes: Mat3,
     /// Motion in a whole step, in m.
     motion: Vec3,
     /// How far its rotation moves its points in a whole step, in m.
@@ -55,7 +55,7 @@ impl Placed {
 
 impl Scene<'_> {
     #[inline(always)]
-    fn placed(&self, body: u32) -> Placed {
+    pub(super) fn placed(&self, body: u32) -> Placed {
         let place = self.place_of[body as usize] as usize;
         let (first, second) = (&self.poses[2 * place].0, &self.poses[2 * place + 1].0);
         let (e0, e1) =
@@ -68,6 +68,12 @@ impl Scene<'_> {
             turning: second[6],
             reach: second[7],
         }
+    }
+
+    /// How far the points of a body move in a whole step at most, in m.
+    pub(super) fn motion(&self, body: u32) -> f32 {
+        let placed = self.placed(body);
+        placed.motion.length() + placed.turning
     }
 
     fn stamp(&self, pair: &Pair) -> u32 {

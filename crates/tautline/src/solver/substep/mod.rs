@@ -13,6 +13,7 @@ mod crew;
 mod detect;
 mod group;
 mod held;
+mod island;
 mod joint;
 mod lineup;
 mod pairs;
@@ -196,16 +197,8 @@ impl RigidSolver {
     /// Brings the contacts of all pairs up to date. Returns how many points they have.
     pub(crate) fn find_contacts(&mut self, bodies: &[Body], settings: &Settings, h: f32) -> usize {
         let timing = timing(settings, h);
-        let scene = Scene {
-            bodies,
-            versions: &self.versions,
-            place_of: &self.lineup.place_of,
-            poses: &self.crew.poses,
-            velocities: &self.crew.velocities,
-            substeps: timing.substeps,
-            margin: timing.margin,
-        };
         let Pairs { pairs, details } = &mut self.pairs;
+        let scene = scene((&self.lineup, &self.crew, &self.versions), bodies, &timing);
         if parallel::is_worthwhile(pairs.len(), WORTHWHILE) {
             let mut chunks: Vec<_> = pairs.chunks_mut(CHUNK).zip(details.chunks_mut(CHUNK)).collect();
             parallel::for_each(&mut chunks, true, |(pairs, details)| {
@@ -305,6 +298,23 @@ impl RigidSolver {
 const WORTHWHILE: usize = 1024;
 /// … so many at a time.
 const CHUNK: usize = 256;
+
+/// What there is to collide, as it is when the step begins.
+fn scene<'a>(
+    (lineup, crew, versions): (&'a Lineup, &'a Crew, &'a [u32]),
+    bodies: &'a [Body],
+    timing: &Timing,
+) -> Scene<'a> {
+    Scene {
+        bodies,
+        versions,
+        place_of: &lineup.place_of,
+        poses: &crew.poses,
+        velocities: &crew.velocities,
+        substeps: timing.substeps,
+        margin: timing.margin,
+    }
+}
 
 fn timing(settings: &Settings, h: f32) -> Timing {
     let substeps = settings.substeps as f32;

@@ -140,16 +140,16 @@ fn assembly(
 }
 
 /// Disjoint sets of bodies (Tarjan 1975); a set is named by its lowest body.
-struct Sets {
+pub(super) struct Sets {
     parent: Vec<u32>,
 }
 
 impl Sets {
-    fn new(count: usize) -> Self {
+    pub(super) fn new(count: usize) -> Self {
         Self { parent: (0..count as u32).collect() }
     }
 
-    fn root(&mut self, mut body: u32) -> u32 {
+    pub(super) fn root(&mut self, mut body: u32) -> u32 {
         while self.parent[body as usize] != body {
             self.parent[body as usize] = self.parent[self.parent[body as usize] as usize];
             body = self.parent[body as usize];
@@ -157,7 +157,7 @@ impl Sets {
         body
     }
 
-    fn join(&mut self, a: u32, b: u32) {
+    pub(super) fn join(&mut self, a: u32, b: u32) {
         let (a, b) = (self.root(a), self.root(b));
         self.parent[a.max(b) as usize] = a.min(b);
     }
