@@ -6,7 +6,7 @@
 
 use glam::{Mat3, Vec3};
 
-use super::held::{Held, HeldPoint};
+use super::held::{Held, HeldPoint, NAMELESS};
 use super::pairs::{Detail, Pair};
 use crate::body::{Body, HalfSpace, Substance};
 use crate::geometry::manifold::{Manifold, Placement, Scratch, collide, collide_plane, collide_triangle};
@@ -226,9 +226,6 @@ fn hold(manifold: &Manifold, (a, b): (&Placed, &Placed), detail: &mut Detail) {
     }
     **old = held;
 }
-
-/// The name of points that are not there.
-const NAMELESS: u32 = 0;
 
 /// Of features, never `NAMELESS`.
 fn name(key: u32) -> u32 {

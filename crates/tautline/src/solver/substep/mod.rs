@@ -221,7 +221,7 @@ impl RigidSolver {
         let is_held = self.joints.held(self.lineup.solved);
         let timing = timing(settings, h);
         let where_and_how = (&self.lineup, &self.crew, &timing);
-        let found = stack::find(&self.pairs.pairs, where_and_how, |place| is_held[place as usize]);
+        let found = stack::find(&self.pairs, where_and_how, |place| is_held[place as usize]);
         let mut is_stacked = Vec::new();
         if !found.is_empty() {
             is_stacked.resize(self.pairs.pairs.len(), false);
@@ -244,6 +244,7 @@ impl RigidSolver {
         let aim = |is_biased| Aim { softness: &softness, is_biased, kick };
         self.stacks.solve(aim(true), &mut self.groups, &mut self.crew);
         self.groups.pass(Pass::Biased, &self.softness, &mut self.crew.velocities, instructions);
+        self.groups.land(&self.softness, &mut self.crew.velocities, instructions);
         self.joints.solve(&mut self.crew, settings, h);
         self.stacks.look_ahead(&self.crew);
         self.crew.advance(&self.lineup, &timing);
