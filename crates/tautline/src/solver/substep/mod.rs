@@ -309,6 +309,7 @@ fn scene<'a>(
         bodies,
         versions,
         place_of: &lineup.place_of,
+        shapes: &crew.shapes,
         poses: &crew.poses,
         velocities: &crew.velocities,
         substeps: timing.substeps,
