@@ -26,7 +26,6 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use crate::body::{Body, Frame, Motion, Substance};
-use crate::collision::bvh::PairSearch;
 use crate::geometry::manifold;
 use crate::joint::{Joints, State as JointState};
 use crate::parallel;
@@ -34,6 +33,7 @@ use crate::particles::Particles;
 use crate::settings::Settings;
 use crate::simd::{LANES, run};
 
+use boxes::BoxSearch;
 use contact::{Pass, Softness};
 use crew::{Crew, Timing, Track};
 use detect::{Detect, Scene};
@@ -69,7 +69,7 @@ pub(crate) struct RigidSolver {
     /// Pairs of bodies that do not collide since a joint connects them, sorted.
     separated: Vec<[u32; 2]>,
     softness: Softness,
-    search: PairSearch,
+    search: BoxSearch,
     scratch: manifold::Scratch,
 }
 
@@ -163,6 +163,8 @@ impl RigidSolver {
         let leaves = self.crew.count_versions(&self.lineup, &mut self.versions);
         if is_first || leaves {
             self.find_pairs(bodies, settings);
+        } else {
+            self.end_search();
         }
     }
 
