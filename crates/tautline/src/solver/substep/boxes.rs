@@ -17,7 +17,7 @@ use crate::simd::{Instructions, LANES};
 /// By how much more than it needs a body's box is larger, as a share of its reach.
 const SKIN: f32 = 0.08;
 /// For how many more steps of the same motion a box is large enough.
-const STEPS_AHEAD: f32 = 1.0;
+const STEPS_AHEAD: f32 = 0.5;
 /// From so many bodies on it pays to enclose them side by side, …
 const WORTHWHILE: usize = 1024;
 /// … so many at a time.
