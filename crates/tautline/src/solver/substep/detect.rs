@@ -12,7 +12,9 @@ use glam::{Mat3, Vec3};
 use super::held::{Held, HeldPoint};
 use super::pairs::{Detail, Pair};
 use crate::body::{Body, HalfSpace, Substance};
-use crate::geometry::manifold::{Manifold, Placement, Scratch, collide, collide_plane, collide_triangle};
+use crate::geometry::manifold::{
+    Manifold, Memory, Placement, Scratch, collide, collide_plane, collide_triangle,
+};
 use crate::shape::{Convex, Shape, Surface};
 use crate::simd::{Kernel, Lanes, Row};
 
@@ -136,8 +138,9 @@ fn update<L: Lanes>(scene: Scene<'_>, pair: &mut Pair, detail: &mut Detail, scra
         Some(shape) => {
             let b = scene.placed(pair.b);
             if scene.are_apart(&a, &b) {
-                // Without a look at the details.
-                if pair.points > 0 {
+                // What is remembered would be of another approach: the margin of a fast one has to be its own.
+                if pair.points > 0 || detail.memory.axis != Vec3::ZERO {
+                    detail.memory = Memory::default();
                     (pair.points, detail.held) = (0, None);
                 }
                 return;
