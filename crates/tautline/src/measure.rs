@@ -108,13 +108,10 @@ impl World {
         let boxes: Vec<Aabb> = solids.iter().map(|solid| solid.bounds).collect();
         let movable: Vec<bool> = solids.iter().map(|solid| is_dynamic(solid.body)).collect();
         let (mut search, mut pairs) = (PairSearch::default(), Vec::new());
-        overlapping_pairs(&boxes, &movable, self.settings.instructions, &mut search, &mut pairs);
-        for (a, b) in pairs {
-            let (a, b) = (&solids[a as usize], &solids[b as usize]);
-            if groups(a.body).collide_with(groups(b.body)) {
-                depths.push(a.depth_in(b));
-            }
-        }
+        let collide =
+            |a: u32, b: u32| groups(solids[a as usize].body).collide_with(groups(solids[b as usize].body));
+        overlapping_pairs(&boxes, &movable, collide, self.settings.instructions, &mut search, &mut pairs);
+        depths.extend(pairs.iter().map(|&(a, b)| solids[a as usize].depth_in(&solids[b as usize])));
     }
 
     fn wall_depths(&self, depths: &mut Vec<f32>) {

@@ -1,6 +1,7 @@
 //! The bodies of a lineup: their blocks, and their rows for the solver.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -8,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::body::{Body, CORNERS, Motion as MotionKind, Rigid, Substance};
 use crate::parallel;
 use crate::particles::Particles;
+use crate::shape::Shape;
 use crate::simd::{Instructions, Kernel, LANES, Lanes, Row, Vec3x8, run};
 
 use super::block::{Block, Constants, Motion, ParticleRows, Rows3, particles};
@@ -63,6 +65,8 @@ pub(super) struct Track {
 pub(super) struct Crew {
     pub(super) blocks: Vec<Block>,
     pub(super) tracks: Vec<Track>,
+    /// Where there is a body.
+    pub(super) shapes: Vec<Option<Arc<Shape>>>,
     /// Two rows for each place, see `prepare::Poses`.
     pub(super) poses: Vec<Row>,
     /// One for each place, see `block`.
@@ -92,9 +96,11 @@ impl Crew {
     pub(super) fn new(lineup: &Lineup, bodies: &[Body]) -> Self {
         let count = lineup.places.len();
         let block = |places: &[u32]| new_block(places, bodies);
+        let shape = |&place: &u32| rigid_at(place, bodies).map(|(_, rigid)| Arc::clone(&rigid.shape));
         Self {
             blocks: lineup.places.chunks(LANES).map(block).collect(),
             tracks: vec![Track::default(); count / LANES],
+            shapes: lineup.places.iter().map(shape).collect(),
             poses: vec![Row::ZERO; 2 * count],
             velocities: vec![Row::ZERO; count],
             accumulated: vec![Row::ZERO; count],

@@ -51,11 +51,6 @@ impl Held {
         held
     }
 
-    /// Apart: nothing goes on from it.
-    pub(super) fn forget(&mut self) {
-        self.points = Self::EMPTY.points;
-    }
-
     /// Whether its numbers are finite, names aside.
     pub(super) fn is_sound(&self) -> bool {
         let points =
