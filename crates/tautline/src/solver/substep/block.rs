@@ -111,10 +111,12 @@ impl Block {
         let quarter = L::splat(0.25);
         let (x, d) = (particles::<L>(positions), particles::<L>(displacements));
         let (front, back) = (x[0] + x[1], x[2] + x[3]);
-        // From the first particle on: sums of four are rounded coarser than they are.
+        // Far out from the first particle on: sums of four are rounded coarser than they are.
+        let near = (front + back) * quarter;
         let offset = ((x[1] - x[0]) + ((x[2] - x[0]) + (x[3] - x[0]))) * quarter;
-        let center = x[0] + offset;
-        let shift = offset - (center - x[0]);
+        let is_far = self.is_far(near);
+        let center = Vec3x8::select(is_far, x[0] + offset, near);
+        let shift = Vec3x8::select(is_far, offset - (center - x[0]), Vec3x8::zero());
         let (first, second) = (front - back, (x[0] - x[1]) + (x[2] - x[3]));
         // The largest two of the axes, since those are the best known: moments are in descending order.
         let e0 = rigidity::unit(first * (L::splat(1.0) / first.length()));
@@ -139,6 +141,13 @@ impl Block {
         Motion { linear: linear * scale, angular: angular * scale }
     }
 
+    /// A mask: whether a centre is so far from the origin that rounding it matters more than rounding axes.
+    #[inline(always)]
+    fn is_far<L: Lanes>(&self, center: Vec3x8<L>) -> L {
+        let spread = Vec3x8::<L>::load(&self.constants.spread);
+        center.length_squared().greater(spread.length_squared() * L::splat(FAR * FAR))
+    }
+
     /// From the principal frames to the world.
     #[inline(always)]
     pub(super) fn axes_now<L: Lanes>(&self) -> Matrix3x8<L> {
@@ -160,13 +169,15 @@ impl Block {
         let linear = Vec3x8::new(columns[0], columns[1], columns[2]);
         let turn = self.turn(columns);
         let arms = [e0 + e1 + e2, e0 - e1 - e2, e1 - e0 - e2, e2 - e0 - e1];
-        // Far out the first particle makes up for what rounding takes from the others: at a constant speed that is the
-        // same in every step, and would add up. Near the origin it would only disturb the axes.
-        let limit = spread.length_squared() * L::splat(FAR * FAR);
-        let is_far = center.length_squared().greater(limit);
+        // Far out the shift is not to be rounded with the centre, and the first particle makes up for what rounding takes
+        // from the others: at a constant speed that is the same in every step, and would add up. Near the origin that
+        // would only disturb the axes.
+        let is_far = self.is_far(center);
+        let moved = Vec3x8::select(is_far, shift, Vec3x8::zero());
+        let center = Vec3x8::select(is_far, center, center + shift);
         let mut lost = Vec3x8::zero();
         for (k, arm) in arms.into_iter().enumerate().rev() {
-            let (arm, d) = (shift + arm, linear + turn.cross(arm));
+            let (arm, d) = (moved + arm, linear + turn.cross(arm));
             let x = if k == 0 { center + (arm + lost) } else { center + arm };
             lost = lost + Vec3x8::select(is_far, (center - x) + arm, Vec3x8::zero());
             store_particle(x, &mut positions[3 * k..]);
