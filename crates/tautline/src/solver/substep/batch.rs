@@ -64,7 +64,7 @@ pub(super) struct HeaderRows {
     pub(super) restitution: Row,
     /// In m.
     pub(super) rolling_friction: Row,
-    /// 1 where contacts are soft, 0 in stacks.
+    /// 1 where contacts are soft, 0 in stacks that are solved.
     pub(super) is_soft: Row,
 }
 

@@ -155,9 +155,9 @@ impl Groups {
         (&group.headers[lane.batch], &group.points[group.batches[lane.batch].range()])
     }
 
-    pub(super) fn rows_mut(&mut self, lane: &Lane) -> &mut [PointRows] {
+    pub(super) fn rows_mut(&mut self, lane: &Lane) -> (&mut HeaderRows, &mut [PointRows]) {
         let group = &mut self.groups[lane.group];
-        &mut group.points[group.batches[lane.batch].range()]
+        (&mut group.headers[lane.batch], &mut group.points[group.batches[lane.batch].range()])
     }
 
     /// Where the velocities of both bodies of a contact are.

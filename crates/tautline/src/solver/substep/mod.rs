@@ -223,7 +223,11 @@ impl RigidSolver {
         let is_held = self.joints.held(self.lineup.solved);
         let timing = timing(settings, h);
         let where_and_how = (&self.lineup, &self.crew, &timing);
-        let found = stack::find(&self.pairs, where_and_how, |place| is_held[place as usize]);
+        let is_held_at = |place: u32| is_held[place as usize];
+        let found = match settings.gravity == glam::Vec3::ZERO {
+            true => Vec::new(),
+            false => stack::find(&self.pairs, where_and_how, is_held_at),
+        };
         let mut is_stacked = Vec::new();
         if !found.is_empty() {
             is_stacked.resize(self.pairs.pairs.len(), false);

@@ -102,7 +102,7 @@ pub(super) fn fill<'a, L: Lanes>(
     header.is_soft = Row([1.0; LANES]);
     for lane in (0..LANES).filter(|lane| batch.stacked >> lane & 1 != 0) {
         // Stacks are too slow to bounce.
-        (header.is_soft.0[lane], header.restitution.0[lane]) = (0.0, 0.0);
+        header.restitution.0[lane] = 0.0;
     }
 
     let mut sum_a = L::gather(rows_at(accumulated, &batch.a));

@@ -133,7 +133,9 @@ impl Contact {
     /// slides follow it.
     pub(super) fn write(&mut self, groups: &mut Groups, is_solved: bool) {
         let lane = self.lane.lane;
-        for (point, rows) in self.points.iter_mut().zip(groups.rows_mut(&self.lane)) {
+        let (header, rows) = groups.rows_mut(&self.lane);
+        header.is_soft.0[lane] = if is_solved { 0.0 } else { 1.0 };
+        for (point, rows) in self.points.iter_mut().zip(rows) {
             for axis in 0..2 {
                 if point.slides.is_some() {
                     point.slid[axis] += std::mem::take(&mut point.drift[axis]);
@@ -194,6 +196,13 @@ impl Contact {
         for (point, share) in self.points.iter_mut().zip(redundancy) {
             point.targets[0] -= share * excess;
         }
+    }
+}
+
+impl Point {
+    /// In m.
+    pub(super) fn depth(&self) -> f64 {
+        -self.separation
     }
 }
 

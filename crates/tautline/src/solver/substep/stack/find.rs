@@ -19,10 +19,9 @@ const MOST_IN_ALL: usize = 512;
 /// From so many bodies over each other, or so many times the mass of the lightest, it is hard to pass on loads.
 const TALL: u32 = 4;
 const HEAVY: f32 = 4.0;
-/// How fast surfaces of a stack come nearer to each other or part at most, in m/s; …
-const QUIET: f32 = 0.5;
-/// … and those of few bodies that are a stack only because they are about to slide, topple or rest.
-const VERY_QUIET: f32 = 0.1;
+/// How fast surfaces of a stack come nearer to each other or part at most, in m/s: what sways more is damped by soft
+/// contacts.
+const QUIET: f32 = 0.05;
 /// Up to so many bodies are few.
 const FEW: usize = 4;
 /// From this share of the greatest friction on a body is about to slide.
@@ -85,12 +84,9 @@ pub(in super::super) fn find(
         let is_one = found.places.len() <= MOST_BODIES.min(left)
             && contacts.len() <= MOST_PAIRS
             && !found.places.iter().any(|&place| is_held(place))
-            && match fastest(contacts, pairs, (crew, timing.substeps)) / (timing.h * timing.substeps) {
-                speed if speed < VERY_QUIET && found.places.len() <= FEW => {
-                    is_delicate(contacts, pairs) || is_hard(&found.places, contacts, crew)
-                }
-                speed => speed < QUIET && is_hard(&found.places, contacts, crew),
-            };
+            && fastest(contacts, pairs, (crew, timing.substeps)) < QUIET * timing.h * timing.substeps
+            && (is_hard(&found.places, contacts, crew)
+                || found.places.len() <= FEW && is_delicate(contacts, pairs));
         left -= if is_one { found.places.len() } else { 0 };
         is_one
     };

@@ -41,6 +41,11 @@ impl System {
         self.solved
     }
 
+    /// Of what is solved for, in kg.
+    pub(super) fn masses(&self) -> impl Iterator<Item = f64> {
+        self.inverse_masses[..self.solved].iter().map(|inverse_mass| 1.0 / inverse_mass)
+    }
+
     /// 1/m, then 1 three times; nothing if it is not solved for.
     pub(super) fn inverse_mass(&self, place: u32) -> Part {
         let m = self.inverse_masses[place as usize];

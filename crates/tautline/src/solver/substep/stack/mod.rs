@@ -21,12 +21,18 @@ use super::crew::Crew;
 use super::elimination::Part;
 use super::group::{Groups, Lane};
 
-use contact::Contact;
+use contact::{Contact, Point};
 pub(super) use find::{Found, find};
 use matrix::System;
 
 /// From so many contacts on it pays to solve stacks side by side.
 const WORTHWHILE: usize = 64;
+
+/// How many times faster than by gravity's kick bodies may become that were held.
+const ALLOWED: f64 = 2.0;
+
+/// What is deeper in each other than this is moved apart by soft contacts, in m: they are faster at it.
+const DEEP: f64 = 0.01;
 
 /// The stacks of a step.
 #[derive(Debug, Clone, Default)]
@@ -44,6 +50,8 @@ struct Stack {
     velocities: Vec<Part>,
     system: System,
     is_solved: bool,
+    /// Whether some solution of this step was not found, or will not do: then all of it is left to soft contacts.
+    has_failed: bool,
 }
 
 /// What the exact solution is for.
@@ -70,7 +78,7 @@ impl Stacks {
         let (shared, rows) = (&*crew, &*groups);
         parallel::for_each(&mut self.stacks, worthwhile, |stack| {
             stack.read(rows, shared);
-            stack.is_solved = stack.solve(aim);
+            stack.try_to_solve(aim);
         });
         for stack in &mut self.stacks {
             stack.write(groups, crew);
@@ -114,8 +122,9 @@ impl Stack {
             contact.weigh(&inverse_masses);
         }
         let velocities = vec![[0.0; 6]; places.len()];
+        let is_deep = contacts.iter().flat_map(|contact| &contact.points).any(|point| point.depth() > DEEP);
         let system = System::new(inverse_masses, solved, &contacts);
-        Self { places, contacts, velocities, system, is_solved: false }
+        Self { places, contacts, velocities, system, is_solved: false, has_failed: is_deep }
     }
 
     fn read_velocities(&mut self, crew: &Crew) {
@@ -130,6 +139,43 @@ impl Stack {
         for contact in &mut self.contacts {
             contact.read(groups);
         }
+    }
+
+    /// Solves it, or leaves it as it is. Friction can jam so that no impulses are enough (Painlevé 1895); what looks like
+    /// a solution then gives energy.
+    fn try_to_solve(&mut self, aim: Aim<'_>) {
+        let velocities = self.velocities.clone();
+        let multipliers: Vec<[f64; 3]> = self.points().map(|point| point.multipliers).collect();
+        let most = self.energy() + self.allowance(aim);
+        self.is_solved = !self.has_failed && self.solve(aim) && self.energy() <= most;
+        if !self.is_solved {
+            self.has_failed = true;
+            self.velocities = velocities;
+            let points = self.contacts.iter_mut().flat_map(|contact| &mut contact.points);
+            points.zip(multipliers).for_each(|(point, before)| point.multipliers = before);
+        }
+    }
+
+    fn points(&self) -> impl Iterator<Item = &Point> {
+        self.contacts.iter().flat_map(|contact| &contact.points)
+    }
+
+    /// Twice the kinetic energy, in kg m² a substep squared.
+    fn energy(&self) -> f64 {
+        let places = self.velocities.iter().zip(self.system.masses());
+        places
+            .map(|([x, y, z, turn @ ..], mass)| {
+                mass * (x * x + y * y + z * z) + turn.iter().map(|w| w * w).sum::<f64>()
+            })
+            .sum()
+    }
+
+    /// By how much the energy may grow: what bodies have that gravity or correction moves, and that were held before.
+    fn allowance(&self, aim: Aim<'_>) -> f64 {
+        let deepest = self.points().map(Point::depth).fold(0.0, f64::max);
+        let correction = if aim.is_biased { f64::from(aim.softness.bias) * deepest } else { 0.0 };
+        let speed = ALLOWED * (aim.kick + correction);
+        self.system.masses().sum::<f64>() * speed * speed
     }
 
     fn write(&mut self, groups: &mut Groups, crew: &mut Crew) {

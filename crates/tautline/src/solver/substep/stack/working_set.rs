@@ -12,7 +12,7 @@ use super::contact::{Contact, Hold, Point, dot};
 use super::{Aim, Stack};
 
 /// The most solutions in a row. What is not done by then is left to the passes.
-const MOST_ITERATIONS: usize = 16;
+const MOST_ITERATIONS: usize = 24;
 
 /// A point that does not bear yet is held if it approaches its target by more than this share of gravity's kick; at
 /// first also if it moves apart by no more than that.
@@ -23,9 +23,14 @@ const SETTLED: f64 = 0.01;
 
 /// Friction is found once it does not change by more than this share of the normal multiplier.
 const FRICTION: f64 = 1e-4;
+/// What has to do if there is no time left.
+const ROUGH: f64 = 0.05;
 
 /// Faster than what so many substeps of gravity's friction stop slides from the beginning.
 const FAST: f64 = 2.0;
+
+/// How fast depth is undone in a substep, summed over a stack, as a share of gravity's kick.
+const LIFT: f64 = 0.5;
 
 /// How far beyond the cone friction has to be to slide.
 const CONE: f64 = 1.0001;
@@ -35,8 +40,10 @@ impl Stack {
     pub(super) fn solve(&mut self, aim: Aim<'_>) -> bool {
         let Softness { bias, drift_rate, limit, .. } = *aim.softness;
         let [bias, drift_rate, limit] = if aim.is_biased { [bias, drift_rate, limit] } else { [0.0; 3] };
+        // Slower than gravity takes up what is lifted, or a stack would be thrown up.
+        let limit = f64::from(limit).min(LIFT * aim.kick / self.system.solved() as f64);
         for contact in &mut self.contacts {
-            contact.aim([bias, drift_rate].map(f64::from), f64::from(limit));
+            contact.aim([bias, drift_rate].map(f64::from), limit);
         }
         if self.is_settled(NOTHING * aim.kick) {
             return true;
@@ -48,7 +55,7 @@ impl Stack {
             self.system.factor(&self.contacts);
             let change = self.change();
             let share = self.longest_share(&change);
-            if self.take(&change, share) {
+            if self.take(&change, share, iteration + 1 == MOST_ITERATIONS) {
                 return true;
             }
         }
@@ -133,7 +140,7 @@ impl Stack {
     }
 
     /// Makes a share of a change. Tells whether that was all there is to do.
-    fn take(&mut self, change: &[Part], share: f64) -> bool {
+    fn take(&mut self, change: &[Part], share: f64, is_last: bool) -> bool {
         let mut is_done = true;
         let Self { contacts, velocities, system, .. } = self;
         // All gains first: they are told from velocities.
@@ -153,7 +160,8 @@ impl Stack {
                     && reached[0] <= 1e-6 * point.multipliers[0].max(gain[0].abs());
                 let kept = point.settle(reached, lets_go, friction);
                 let cut = (kept[1] - reached[1]).abs().max((kept[2] - reached[2]).abs());
-                is_done &= !lets_go && cut <= FRICTION * kept[0];
+                let enough = if is_last { ROUGH } else { FRICTION };
+                is_done &= !lets_go && cut <= enough * kept[0];
                 for (k, (kept, reached)) in kept.into_iter().zip(reached).enumerate() {
                     if kept == reached {
                         continue;
