@@ -19,7 +19,7 @@ fn report(outcomes: &[Outcome]) -> String {
 
 /// The cases that are as near their answer as demanded. The others are not yet; `tautline validate` tells how far
 /// off each is.
-const MET: [u32; 6] = [1, 4, 5, 6, 10, 18];
+const MET: [u32; 9] = [1, 4, 5, 6, 10, 16, 17, 18, 27];
 
 #[test]
 fn cases_that_were_as_near_their_answer_as_demanded_still_are() {

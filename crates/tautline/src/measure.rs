@@ -20,7 +20,7 @@ pub struct Strain {
 }
 
 /// How deep bodies are in each other: solids in solids, solids and particles in half-spaces. Pairs that cannot collide,
-/// by their groups or because neither is moved by contacts, do not count.
+/// by their groups, since a joint connects them or because neither is moved by contacts, do not count.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Penetration {
     /// Deepest, in m.
@@ -103,15 +103,20 @@ impl World {
     }
 
     fn solid_depths(&self, depths: &mut Vec<f32>) {
-        let bodies = self.bodies.iter().filter(|body| solid_piece_count(body) > 0);
-        let solids: Vec<Solid<'_>> = bodies.map(|body| Solid::of(body, &self.particles.position)).collect();
+        let bodies = self.bodies.iter().enumerate().filter(|(_, body)| solid_piece_count(body) > 0);
+        let (indices, bodies): (Vec<u32>, Vec<&Body>) = bodies.map(|(i, body)| (i as u32, body)).unzip();
+        let positions = &self.particles.position;
+        let solids: Vec<Solid<'_>> = bodies.into_iter().map(|body| Solid::of(body, positions)).collect();
         let boxes: Vec<Aabb> = solids.iter().map(|solid| solid.bounds).collect();
         let movable: Vec<bool> = solids.iter().map(|solid| is_dynamic(solid.body)).collect();
         let (mut search, mut pairs) = (PairSearch::default(), Vec::new());
         overlapping_pairs(&boxes, &movable, self.settings.instructions, &mut search, &mut pairs);
+        let connected = self.joints.separated();
         for (a, b) in pairs {
+            // Indices grow with the solids, of which the lower comes first.
+            let pair = [a.min(b), a.max(b)].map(|solid| indices[solid as usize]);
             let (a, b) = (&solids[a as usize], &solids[b as usize]);
-            if groups(a.body).collide_with(groups(b.body)) {
+            if groups(a.body).collide_with(groups(b.body)) && connected.binary_search(&pair).is_err() {
                 depths.push(a.depth_in(b));
             }
         }

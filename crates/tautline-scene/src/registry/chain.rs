@@ -5,7 +5,7 @@ use tautline::Vec3;
 use super::rigid::camera;
 use super::{NamedScene, Parameter, Parameters};
 use crate::document::{
-    AxisAngle, Body, BodyRef, Color, HalfSpace, Joint, JointKind, Rigid, Rotation, Scene, Shape,
+    AxisAngle, Body, BodyRef, Color, Groups, HalfSpace, Joint, JointKind, Rigid, Rotation, Scene, Shape,
 };
 
 pub(super) const CHAIN: NamedScene = NamedScene {
@@ -41,6 +41,8 @@ fn chain(p: &Parameters) -> Scene {
             rotation: Rotation::AxisAngle(AxisAngle { axis: [0.0, 0.0, 1.0], degrees: 90.0 }),
             mass: Some(MASS / p.count("ratio") as f32),
             color: Some(IRON),
+            // Links meet all but each other.
+            groups: Some(Groups { memberships: Some(vec![1]), filter: Some(vec![0]) }),
             ..Rigid::default()
         }));
     }

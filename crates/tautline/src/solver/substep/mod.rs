@@ -228,6 +228,7 @@ impl RigidSolver {
         self.groups.pass(Pass::Biased, &self.softness, &mut self.crew.velocities, instructions);
         self.joints.solve(&mut self.crew, settings, h);
         self.crew.advance(&self.lineup, &timing);
+        self.joints.take_back(&mut self.crew);
         self.groups.pass(Pass::Relaxing, &self.softness, &mut self.crew.velocities, instructions);
         self.groups.part(&mut self.crew.velocities, instructions);
         self.groups.resist_rolling(&mut self.crew.velocities, instructions);
