@@ -189,6 +189,7 @@ fn stacks_stand() {
         ("tower", &["n=10"][..], 0.02),
         ("tower", &["n=20"], 0.02),
         ("pyramid", &["n=20"], 0.1),
+        ("mass-ratio", &[], 0.01),
         ("arch", &[], 0.02),
         ("card-house", &[], 0.02),
     ] {

@@ -53,6 +53,7 @@ pub fn scenes() -> &'static [NamedScene] {
         cloth::CLOTH_ON_ROPE,
         stacks::TOWER,
         stacks::PYRAMID,
+        stacks::MASS_RATIO,
         balance::ARCH,
         balance::CARD_HOUSE,
         balance::DOMINOES,

@@ -4,7 +4,9 @@ use tautline::{Quat, Vec3};
 
 use super::rigid::camera;
 use super::{NamedScene, Parameter, Parameters};
-use crate::document::{Body, BodyRef, Color, HalfSpace, Joint, JointKind, Rigid, Rotation, Scene, Shape};
+use crate::document::{
+    Body, BodyRef, Color, Damping, HalfSpace, Joint, JointKind, Rigid, Rotation, Scene, Shape,
+};
 use crate::random::Random;
 use crate::render::palette;
 
@@ -78,6 +80,8 @@ struct Link {
     kind: JointKind,
 }
 
+/// How soon a limb stops turning, as no joint is without friction, in 1/s.
+const STIFFNESS: f32 = 1.0;
 const SKIN: Color = Color([226, 178, 148]);
 /// The number of the head.
 const HEAD: usize = 2;
@@ -91,6 +95,7 @@ impl Figure {
                 rotation: Rotation::Quaternion(self.turn.to_array()),
                 velocity: (self.turn * Vec3::new(0.0, 0.0, 1.5)).with_y(0.0).to_array(),
                 mass: Some(limb.mass),
+                damping: Some(Damping { angular: STIFFNESS, ..Damping::default() }),
                 color: Some(if k == HEAD { SKIN } else { Color(self.color) }),
                 ..Rigid::default()
             }));

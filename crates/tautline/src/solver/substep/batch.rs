@@ -23,6 +23,8 @@ pub(super) struct Active {
     /// Whether impulses change the velocity of a, and of b.
     pub(super) moves_a: bool,
     pub(super) moves_b: bool,
+    /// Whether it belongs to a stack, see `stack`.
+    pub(super) is_stacked: bool,
 }
 
 /// In an empty lane.
@@ -40,6 +42,8 @@ pub(super) struct Batch {
     pub(super) first: u32,
     /// How many points each of its pairs has.
     pub(super) points: u32,
+    /// Bits of the lanes whose pairs belong to stacks.
+    pub(super) stacked: u32,
 }
 
 impl Batch {
@@ -60,6 +64,8 @@ pub(super) struct HeaderRows {
     pub(super) restitution: Row,
     /// In m.
     pub(super) rolling_friction: Row,
+    /// 1 where contacts are soft, 0 in stacks.
+    pub(super) is_soft: Row,
 }
 
 /// One point of each of eight pairs. A Jacobian is √I⁻¹ (l × Rᵀd): see `block`.
@@ -126,6 +132,7 @@ impl Colouring {
                     place_b: [ground; LANES],
                     first,
                     points,
+                    stacked: 0,
                 });
                 first += points;
             }
@@ -138,6 +145,7 @@ impl Colouring {
             batch.pairs[lane] = active.pair;
             (batch.a[lane], batch.b[lane]) = (active.a, active.b);
             (batch.place_a[lane], batch.place_b[lane]) = (active.place_a, active.place_b);
+            batch.stacked |= u32::from(active.is_stacked) << lane;
         }
     }
 
@@ -204,6 +212,7 @@ mod tests {
             points: (pair % 4 + 1) as u8,
             moves_a: true,
             moves_b: b < 190,
+            is_stacked: false,
         };
         let mut pairs: Vec<Active> = (1..=150).map(|i| pair(i - 1, 0, i)).collect();
         pairs.extend((1..=149).map(|i| pair(149 + i, i, i + 1)));

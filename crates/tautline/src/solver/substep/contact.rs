@@ -22,13 +22,11 @@ use super::block::Rows3;
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Softness {
     /// β: the share of the depth that a substep undoes.
-    bias: f32,
-    /// m_s.
-    mass_scale: f32,
-    /// i_s.
-    impulse_scale: f32,
+    pub(super) bias: f32,
+    /// i_s = 1 − m_s.
+    give: f32,
     /// The most a substep undoes, in m.
-    limit: f32,
+    pub(super) limit: f32,
     /// The share of the anchors' drift that a substep undoes.
     pub(super) drift_rate: f32,
 }
@@ -47,13 +45,7 @@ impl Softness {
         let damping = 2.0 * DAMPING_RATIO + h * angular;
         let a = h * angular * damping;
         let bias = h * angular / damping;
-        Self {
-            bias,
-            mass_scale: a / (1.0 + a),
-            impulse_scale: 1.0 / (1.0 + a),
-            limit: speed * h,
-            drift_rate: bias * DRIFT_SHARE,
-        }
+        Self { bias, give: 1.0 / (1.0 + a), limit: speed * h, drift_rate: bias * DRIFT_SHARE }
     }
 }
 
@@ -158,9 +150,9 @@ fn solve<L: Lanes>(
         Pass::Biased => {
             let correction = (separation * L::splat(-softness.bias)).min(L::splat(softness.limit));
             let target = apart.select(-separation, correction);
-            let push = (target - opening) * apart.select(L::splat(1.0), L::splat(softness.mass_scale));
-            let keep = impulse - apart.select(zero, impulse * L::splat(softness.impulse_scale));
-            push * mass + keep
+            let stays =
+                L::splat(1.0) - apart.select(zero, L::load(&header.is_soft) * L::splat(softness.give));
+            ((target - opening) * mass + impulse) * stays
         }
         Pass::Relaxing => {
             (separation + opening).store(&mut rows.separation);

@@ -178,6 +178,12 @@ impl Crew {
         self.for_each(lineup, lineup.stripes(), |squad| run(instructions, Kick { squad, is_first }));
     }
 
+    /// How the centre of what is in a place moves in a whole step, and how far its turning moves its points, in m.
+    pub(super) fn motion(&self, place: usize, timing: &Timing) -> (Vec3, f32) {
+        let (velocity, pose) = (&self.velocities[place].0, &self.poses[2 * place + 1].0);
+        (Vec3::new(velocity[0], velocity[1], velocity[2]) * timing.substeps, pose[6])
+    }
+
     /// Gives a body a velocity whose change is not to be given to it again in the next substep.
     pub(super) fn set_velocity(&mut self, place: usize, row: Row) {
         let (velocity, before) = (&mut self.velocities[place], &mut self.before[place]);

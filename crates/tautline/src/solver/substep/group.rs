@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::parallel;
-use crate::simd::{Instructions, Kernel, Lanes, Row, run};
+use crate::simd::{Instructions, Kernel, LANES, Lanes, Row, run};
 
 use super::batch::{Active, Batch, Colouring, HeaderRows, PointRows};
 use super::bounce::{Bounce, MOST_VISITS};
@@ -30,6 +30,14 @@ pub(super) struct Group {
     /// Whether the last visit of the bounces changed anything.
     is_ringing: bool,
     colouring: Colouring,
+}
+
+/// Where the contact of a pair is: its group, batch and lane.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Lane {
+    group: usize,
+    batch: usize,
+    pub(super) lane: usize,
 }
 
 /// All groups, in the order in which they are solved: stripes, every other border, the borders between, and what is
@@ -96,7 +104,8 @@ impl Groups {
     }
 
     /// Sorts the pairs that have points, and of which a body is solved for, into their groups.
-    pub(super) fn sort_in(&mut self, pairs: &Pairs, lineup: &Lineup) {
+    /// `is_stacked` tells of each pair whether it belongs to a stack; of those behind its end it does not.
+    pub(super) fn sort_in(&mut self, pairs: &Pairs, lineup: &Lineup, is_stacked: &[bool]) {
         self.groups.iter_mut().for_each(|group| group.active.clear());
         let stripe_count = lineup.stripes.len();
         let even = stripe_count / 2;
@@ -121,8 +130,41 @@ impl Groups {
                 points: pair.points as u8,
                 moves_a: (place_a as usize) < lineup.solved,
                 moves_b: (place_b as usize) < lineup.solved,
+                is_stacked: is_stacked.get(index).copied().unwrap_or(false),
             });
         }
+    }
+
+    /// Where the pairs are that belong to stacks, by their index.
+    pub(super) fn stacked(&self) -> Vec<(u32, Lane)> {
+        let mut lanes = Vec::new();
+        for (number, group) in self.groups.iter().enumerate().filter(|(_, group)| !group.active.is_empty()) {
+            for (batch, of_batch) in group.batches.iter().enumerate().filter(|(_, batch)| batch.stacked != 0)
+            {
+                let stacked = (0..LANES).filter(|lane| of_batch.stacked >> lane & 1 != 0);
+                lanes.extend(stacked.map(|lane| (of_batch.pairs[lane], Lane { group: number, batch, lane })));
+            }
+        }
+        lanes.sort_unstable_by_key(|(pair, _)| *pair);
+        lanes
+    }
+
+    /// The rows of a contact, of which those of one lane are its own.
+    pub(super) fn rows(&self, lane: &Lane) -> (&HeaderRows, &[PointRows]) {
+        let group = &self.groups[lane.group];
+        (&group.headers[lane.batch], &group.points[group.batches[lane.batch].range()])
+    }
+
+    pub(super) fn rows_mut(&mut self, lane: &Lane) -> &mut [PointRows] {
+        let group = &mut self.groups[lane.group];
+        &mut group.points[group.batches[lane.batch].range()]
+    }
+
+    /// Where the velocities of both bodies of a contact are.
+    pub(super) fn places(&self, lane: &Lane) -> [u32; 2] {
+        let group = &self.groups[lane.group];
+        let batch = &group.batches[lane.batch];
+        [batch.a[lane.lane], batch.b[lane.lane]].map(|place| place + group.range.start as u32)
     }
 
     /// Does `work` on every group with its range of `rows`, phase after phase, those of a phase side by side.

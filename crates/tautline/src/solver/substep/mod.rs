@@ -11,6 +11,7 @@ mod boxes;
 mod contact;
 mod crew;
 mod detect;
+mod elimination;
 mod group;
 mod held;
 mod island;
@@ -21,6 +22,7 @@ mod prepare;
 mod pull;
 mod rigidity;
 mod rolling;
+mod stack;
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -41,6 +43,7 @@ use group::Groups;
 use joint::JointSolver;
 use lineup::{Entry, Lineup, NOBODY, Role};
 use pairs::Pairs;
+use stack::{Aim, Stacks};
 
 /// What a snapshot keeps: all that the next step depends on and that is not in the particles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -65,6 +68,7 @@ pub(crate) struct RigidSolver {
     /// Whether what never moves has been read.
     is_read: bool,
     groups: Groups,
+    stacks: Stacks,
     joints: JointSolver,
     /// Pairs of bodies that do not collide since a joint connects them, sorted.
     separated: Vec<[u32; 2]>,
@@ -214,9 +218,19 @@ impl RigidSolver {
     /// Makes the solver's rows.
     pub(crate) fn prepare(&mut self, settings: &Settings, h: f32) {
         self.softness = Softness::new(h, settings.separation_speed.unwrap_or(f32::INFINITY));
-        self.groups.sort_in(&self.pairs, &self.lineup);
+        let is_held = self.joints.held(self.lineup.solved);
+        let timing = timing(settings, h);
+        let where_and_how = (&self.lineup, &self.crew, &timing);
+        let found = stack::find(&self.pairs.pairs, where_and_how, |place| is_held[place as usize]);
+        let mut is_stacked = Vec::new();
+        if !found.is_empty() {
+            is_stacked.resize(self.pairs.pairs.len(), false);
+            found.iter().flat_map(|found| &found.pairs).for_each(|&pair| is_stacked[pair as usize] = true);
+        }
+        self.groups.sort_in(&self.pairs, &self.lineup, &is_stacked);
         let (poses, ground) = (&self.crew.poses, self.lineup.ground());
         self.groups.prepare(&self.pairs, poses, ground, &mut self.crew.accumulated, settings.instructions);
+        self.stacks.begin(&found, &self.groups, &self.crew);
     }
 
     /// One substep: forces, contacts, joints, motion, contacts without bias.
@@ -225,10 +239,16 @@ impl RigidSolver {
         self.groups.meet(&mut self.crew, h, instructions);
         self.crew.kick(&self.lineup, is_first, instructions);
         self.joints.warm_start(&mut self.crew);
+        let kick = f64::from(settings.gravity.length() * h * h);
+        let softness = self.softness;
+        let aim = |is_biased| Aim { softness: &softness, is_biased, kick };
+        self.stacks.solve(aim(true), &mut self.groups, &mut self.crew);
         self.groups.pass(Pass::Biased, &self.softness, &mut self.crew.velocities, instructions);
         self.joints.solve(&mut self.crew, settings, h);
+        self.stacks.look_ahead(&self.crew);
         self.crew.advance(&self.lineup, &timing);
         self.joints.take_back(&mut self.crew);
+        self.stacks.solve(aim(false), &mut self.groups, &mut self.crew);
         self.groups.pass(Pass::Relaxing, &self.softness, &mut self.crew.velocities, instructions);
         self.groups.part(&mut self.crew.velocities, instructions);
         self.groups.resist_rolling(&mut self.crew.velocities, instructions);

@@ -99,6 +99,11 @@ pub(super) fn fill<'a, L: Lanes>(
     shared[3].store(&mut header.friction);
     shared[4].store(&mut header.restitution);
     shared[5].store(&mut header.rolling_friction);
+    header.is_soft = Row([1.0; LANES]);
+    for lane in (0..LANES).filter(|lane| batch.stacked >> lane & 1 != 0) {
+        // Stacks are too slow to bounce.
+        (header.is_soft.0[lane], header.restitution.0[lane]) = (0.0, 0.0);
+    }
 
     let mut sum_a = L::gather(rows_at(accumulated, &batch.a));
     let mut sum_b = L::gather(rows_at(accumulated, &batch.b));

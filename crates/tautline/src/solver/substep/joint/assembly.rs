@@ -14,8 +14,8 @@ use glam::Vec3;
 use crate::joint::MOST_ROWS;
 
 use super::super::crew::Crew;
+use super::super::elimination::{Matrix, Part, Plan, ZERO, transposed};
 use super::super::rigidity::FASTEST;
-use super::elimination::{Matrix, Part, Plan, ZERO, transposed};
 use super::mover::{Mover, part};
 use super::work::Work;
 
@@ -47,6 +47,8 @@ pub(super) struct Assembly {
     pub(super) solved: usize,
     pub(super) works: Vec<Work>,
     pub(super) plan: Plan,
+    /// Of each joint, and of each of its two sides that is a body that is solved for, the number of its edge.
+    sides: Vec<[Option<u32>; 2]>,
     /// Whether motions are taken to lead straight on, since Newton's method has failed.
     is_linear: bool,
     matrix: Matrix,
@@ -65,8 +67,21 @@ pub(super) struct Pace {
 }
 
 impl Assembly {
-    pub(super) fn new(movers: Vec<Mover>, solved: usize, works: Vec<Work>, plan: Plan) -> Self {
-        Self { movers, solved, works, plan, ..Self::default() }
+    /// The first `solved` of the movers are solved for.
+    pub(super) fn new(movers: Vec<Mover>, solved: usize, works: Vec<Work>) -> Self {
+        let mut edges = Vec::new();
+        let mut side = |body: u32, joint: usize| {
+            let is_solved = (body as usize) < solved;
+            is_solved.then(|| {
+                edges.push([body, (solved + joint) as u32]);
+                edges.len() as u32 - 1
+            })
+        };
+        let sides = works.iter().enumerate();
+        let sides =
+            sides.map(|(j, work)| [work.base.and_then(|base| side(base, j)), side(work.body, j)]).collect();
+        let plan = Plan::new(solved + works.len(), solved, &edges);
+        Self { movers, solved, works, plan, sides, ..Self::default() }
     }
 
     pub(super) fn read(&mut self, crew: &Crew) {
@@ -180,7 +195,7 @@ impl Assembly {
             *block = mover.mass_block();
         }
         let joints = self.matrix.diagonal[self.solved..].iter_mut();
-        for ((work, diagonal), sides) in self.works.iter().zip(joints).zip(&self.plan.sides) {
+        for ((work, diagonal), sides) in self.works.iter().zip(joints).zip(&self.sides) {
             let mut blocks = [ZERO; 2];
             for (k, row) in work.rows.iter().enumerate() {
                 diagonal[k][k] = -1.0;
@@ -191,7 +206,8 @@ impl Assembly {
                 }
             }
             for (side, block) in sides.iter().zip(blocks) {
-                if let Some((index, is_transposed)) = *side {
+                if let Some(edge) = *side {
+                    let (index, is_transposed) = self.plan.blocks[edge as usize];
                     self.matrix.lower[index as usize] =
                         if is_transposed { transposed(&block) } else { block };
                 }

@@ -5,7 +5,6 @@
 //! side, each exactly and by itself.
 
 mod assembly;
-mod elimination;
 mod mover;
 mod rows;
 mod stop;
@@ -20,7 +19,6 @@ use crate::settings::Settings;
 use super::crew::Crew;
 use super::lineup::{Lineup, NOBODY, Region};
 use assembly::{Assembly, Pace};
-use elimination::Plan;
 use mover::Mover;
 use work::Work;
 
@@ -60,6 +58,15 @@ impl JointSolver {
         };
         self.joint_count = members.values().map(Vec::len).sum();
         self.assemblies = members.values().map(|members| assembly(members, is_solved, mover)).collect();
+    }
+
+    /// Of each place whether joints hold its body.
+    pub(super) fn held(&self, place_count: usize) -> Vec<bool> {
+        let mut is_held = vec![false; place_count];
+        for mover in self.assemblies.iter().flat_map(|assembly| &assembly.movers[..assembly.solved]) {
+            is_held[mover.place as usize] = true;
+        }
+        is_held
     }
 
     /// Takes over what has been set since the last step.
@@ -139,11 +146,8 @@ fn assembly(
         Some(Work::new(index, joint, number(joint.body)?, base))
     };
     let works: Vec<Work> = members.iter().filter_map(work).collect();
-    let side = |body: u32| Some(body).filter(|&body| (body as usize) < solved);
-    let sides: Vec<[Option<u32>; 2]> =
-        works.iter().map(|work| [work.base.and_then(side), side(work.body)]).collect();
     let movers = bodies.iter().map(|&body| mover(body)).collect();
-    Assembly::new(movers, solved, works, Plan::new(solved, &sides))
+    Assembly::new(movers, solved, works)
 }
 
 /// Disjoint sets of bodies (Tarjan 1975); a set is named by its lowest body.

@@ -5,8 +5,8 @@ use glam::{DVec3, Mat3, Vec3};
 use crate::simd::{LANES, Row};
 
 use super::super::block::{Block, Rows3};
+use super::super::elimination::{self, Part};
 use super::super::rigidity;
-use super::elimination::{self, Part};
 
 /// A body as joints see it, with motions in the world's frame.
 #[derive(Debug, Clone, Default)]

@@ -1,10 +1,11 @@
-//! Linear equations over the graph of bodies and joints, solved exactly by eliminating one after the other.
+//! Linear equations over a graph of bodies, or of bodies and joints, solved exactly by eliminating one after the other.
 //!
-//! The matrix has a block of 6 × 6 for each body, for each joint, and for each body that a joint holds. Symmetric
-//! elimination (LDLᵀ) is exact in any order of the blocks as long as a joint comes after one of its bodies: the
-//! matrix [M Jᵀ; J −σ] with M and σ positive is quasi-definite (Vanderbei 1995). The block with the fewest neighbours
-//! goes next (minimum degree), so that chains and trees cost as much as they have bodies (Baraff 1996, Linear-time
-//! dynamics using Lagrange multipliers); loops fill in a few blocks more. f64, since heavy on light is ill-conditioned.
+//! The matrix has a block of 6 × 6 for each node, and for each edge. Symmetric elimination (LDLᵀ) is exact in any order
+//! of the blocks if the matrix is definite, as that of bodies that lean on each other is. That of bodies and joints,
+//! [M Jᵀ; J −σ] with M and σ positive, is quasi-definite (Vanderbei 1995): exact as long as a joint comes after one of
+//! its bodies. The block with the fewest neighbours goes next (minimum degree), so that chains and trees cost as much as
+//! they have bodies (Baraff 1996, Linear-time dynamics using Lagrange multipliers); loops fill in a few blocks more. f64,
+//! since heavy on light is ill-conditioned.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -19,8 +20,8 @@ pub(super) const ZERO: Block = [[0.0; 6]; 6];
 #[derive(Debug, Clone, Default)]
 pub(super) struct Plan {
     steps: Vec<Step>,
-    /// Of each joint, and of each of its two sides that is a body: which block, and whether that is Jᵀ, not J.
-    pub(super) sides: Vec<[Option<(u32, bool)>; 2]>,
+    /// Of each edge which block it is, and whether that is the transposed one: its rows are those of the first node.
+    pub(super) blocks: Vec<(u32, bool)>,
     lower_count: usize,
 }
 
@@ -36,15 +37,16 @@ struct Step {
 /// The matrix; factored, the inverses of the pivots and L.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Matrix {
-    /// By node: bodies first, then joints.
+    /// By node.
     pub(super) diagonal: Vec<Block>,
     pub(super) lower: Vec<Block>,
 }
 
 impl Plan {
-    /// For so many bodies and joints between them; a side without a body moves as it is told.
-    pub(super) fn new(body_count: usize, joints: &[[Option<u32>; 2]]) -> Self {
-        let order = order(body_count, joints);
+    /// For a graph of so many nodes with these edges, each named as (column, row). Nodes from `eager` on are not
+    /// eliminated before one of their neighbours is.
+    pub(super) fn new(node_count: usize, eager: usize, edges: &[[u32; 2]]) -> Self {
+        let order = order(node_count, eager, edges);
         let mut rank = vec![0; order.len()];
         for (position, (node, _)) in order.iter().enumerate() {
             rank[*node] = position;
@@ -68,39 +70,35 @@ impl Plan {
             Step { node: *node as u32, neighbours, targets }
         };
         let steps: Vec<Step> = steps.iter().map(step).collect();
-        let side = |joint: usize, body: Option<u32>| {
-            let (joint, body) = (body_count + joint, body? as usize);
-            let is_transposed = rank[joint] < rank[body];
-            let pair = if is_transposed { (body, joint) } else { (joint, body) };
-            Some((blocks[&pair], is_transposed))
+        let block = |edge: &[u32; 2]| {
+            let [column, row] = edge.map(|node| node as usize);
+            let is_transposed = rank[row] < rank[column];
+            let pair = if is_transposed { (column, row) } else { (row, column) };
+            (blocks[&pair], is_transposed)
         };
-        let sides = joints.iter().enumerate().map(|(j, bodies)| bodies.map(|body| side(j, body))).collect();
-        Self { steps, sides, lower_count: blocks.len() }
+        let edges = edges.iter().map(block).collect();
+        Self { steps, blocks: edges, lower_count: blocks.len() }
     }
 }
 
 /// The nodes in the order of elimination, each with the neighbours it has by then.
-fn order(body_count: usize, joints: &[[Option<u32>; 2]]) -> Vec<(usize, Vec<usize>)> {
-    let count = body_count + joints.len();
-    let mut adjacent = vec![BTreeSet::new(); count];
-    for (joint, bodies) in joints.iter().enumerate() {
-        for &body in bodies.iter().flatten() {
-            adjacent[body as usize].insert(body_count + joint);
-            adjacent[body_count + joint].insert(body as usize);
-        }
+fn order(node_count: usize, eager: usize, edges: &[[u32; 2]]) -> Vec<(usize, Vec<usize>)> {
+    let mut adjacent = vec![BTreeSet::new(); node_count];
+    for [a, b] in edges.iter().map(|edge| edge.map(|node| node as usize)) {
+        adjacent[a].insert(b);
+        adjacent[b].insert(a);
     }
-    // Joints join the queue with the first of their bodies.
-    let mut is_queued: Vec<bool> = (0..count).map(|node| node < body_count).collect();
-    let mut queue: BTreeSet<(usize, usize)> =
-        (0..body_count).map(|body| (adjacent[body].len(), body)).collect();
-    let mut order = Vec::with_capacity(count);
+    // The others join the queue with the first of their neighbours.
+    let mut is_queued: Vec<bool> = (0..node_count).map(|node| node < eager).collect();
+    let mut queue: BTreeSet<(usize, usize)> = (0..eager).map(|node| (adjacent[node].len(), node)).collect();
+    let mut order = Vec::with_capacity(node_count);
     while let Some((_, node)) = queue.pop_first() {
         let neighbours = std::mem::take(&mut adjacent[node]);
         for &other in &neighbours {
             queue.remove(&(adjacent[other].len(), other));
             adjacent[other].extend(neighbours.iter().filter(|&&third| third != other));
             adjacent[other].remove(&node);
-            is_queued[other] |= node < body_count;
+            is_queued[other] |= node < eager;
             if is_queued[other] {
                 queue.insert((adjacent[other].len(), other));
             }

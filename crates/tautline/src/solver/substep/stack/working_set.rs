@@ -1,0 +1,171 @@
+//! Finding which contacts bear, stick and slide.
+//!
+//! With a guess of the rows that are held, the equations give the multipliers that hold them. If some would pull, the
+//! stack goes towards that solution only until the first of them is zero, lets it go, and solves anew: the impulses never
+//! pull, and what they leave undone gets smaller each time (active sets; Nocedal & Wright, Numerical Optimization, 16.5).
+//! Friction that would leave Coulomb's cone is cut back to it and slides. At rest the first guess, what bore in the last
+//! substep, is the solution.
+
+use super::super::contact::Softness;
+use super::super::elimination::Part;
+use super::contact::{Contact, Hold, Point, dot};
+use super::{Aim, Stack};
+
+/// The most solutions in a row. What is not done by then is left to the passes.
+const MOST_ITERATIONS: usize = 16;
+
+/// A point that does not bear yet is held if it approaches its target by more than this share of gravity's kick; at
+/// first also if it moves apart by no more than that.
+const NOTHING: f64 = 1e-3;
+
+/// How far beyond the cone friction has to be to slide.
+const CONE: f64 = 1.0001;
+
+impl Stack {
+    /// Finds the impulses of all contacts in a substep. Tells whether it has.
+    pub(super) fn solve(&mut self, aim: Aim<'_>) -> bool {
+        let Softness { bias, drift_rate, limit, .. } = *aim.softness;
+        let [bias, drift_rate, limit] = if aim.is_biased { [bias, drift_rate, limit] } else { [0.0; 3] };
+        for contact in &mut self.contacts {
+            contact.aim([bias, drift_rate].map(f64::from), f64::from(limit));
+        }
+        for iteration in 0..MOST_ITERATIONS {
+            let slack = if iteration == 0 { NOTHING } else { -0.1 * NOTHING };
+            self.guess(slack * aim.kick);
+            self.system.factor(&self.contacts);
+            let change = self.change();
+            let share = self.longest_share(&change);
+            if self.take(&change, share) {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Holds what bears, and what would go into each other.
+    fn guess(&mut self, slack: f64) {
+        for contact in &mut self.contacts {
+            for k in 0..contact.points.len() {
+                let opening = contact.speed(&contact.points[k].lines[0], &self.velocities);
+                let point = &mut contact.points[k];
+                let bears = point.multipliers[0] > 0.0 || opening - point.targets[0] <= slack;
+                point.hold = match (bears && !point.has_let_go, point.has_slid) {
+                    (false, _) => Hold::Off,
+                    (true, true) => Hold::Slides,
+                    (true, false) => Hold::Sticks,
+                };
+            }
+            contact.reconcile();
+        }
+    }
+
+    /// How velocities have to change for all that is held to lead to its target.
+    fn change(&self) -> Vec<Part> {
+        let mut vector = vec![[0.0; 6]; self.places.len()];
+        for contact in &self.contacts {
+            for point in &contact.points {
+                for (line, target) in point.held_rows() {
+                    let push = contact.stiffness * (target - contact.speed(line, &self.velocities));
+                    for (end, side) in contact.ends.iter().zip(line) {
+                        let part = &mut vector[*end as usize];
+                        part.iter_mut().zip(side).for_each(|(number, side)| *number += push * side);
+                    }
+                }
+            }
+        }
+        self.system.solve(&mut vector);
+        vector[self.system.solved()..].fill([0.0; 6]);
+        vector
+    }
+
+    /// Up to which share of the change no normal multiplier would get below zero.
+    fn longest_share(&self, change: &[Part]) -> f64 {
+        let mut share = 1.0f64;
+        for contact in &self.contacts {
+            for point in &contact.points {
+                let old = point.multipliers[0];
+                let gain = contact.gains(point, &self.velocities, change)[0];
+                if old + gain < 0.0 {
+                    share = share.min(old / -gain);
+                }
+            }
+        }
+        share
+    }
+
+    /// Makes a share of a change. Tells whether that was all there is to do.
+    fn take(&mut self, change: &[Part], share: f64) -> bool {
+        let mut is_done = true;
+        let Self { contacts, velocities, system, .. } = self;
+        // All gains first: they are told from velocities.
+        let gains: Vec<[f64; 3]> = contacts
+            .iter()
+            .flat_map(|contact| contact.points.iter().map(|point| contact.gains(point, velocities, change)))
+            .collect();
+        for (velocity, change) in velocities.iter_mut().zip(change) {
+            velocity.iter_mut().zip(change).for_each(|(number, change)| *number += share * change);
+        }
+        let mut gains = gains.into_iter();
+        for contact in contacts {
+            let (ends, friction) = (contact.ends, contact.friction);
+            for (point, gain) in contact.points.iter_mut().zip(gains.by_ref()) {
+                let reached = [0, 1, 2].map(|k| point.multipliers[k] + share * gain[k]);
+                let lets_go = point.multipliers[0] + gain[0] < 0.0
+                    && reached[0] <= 1e-6 * point.multipliers[0].max(gain[0].abs());
+                let kept = point.settle(reached, lets_go, friction);
+                is_done &= !(lets_go || point.has_slid && point.hold == Hold::Sticks);
+                for (k, (kept, reached)) in kept.into_iter().zip(reached).enumerate() {
+                    if kept == reached {
+                        continue;
+                    }
+                    for (end, side) in ends.iter().zip(&point.lines[k]) {
+                        let (velocity, inverse) = (&mut velocities[*end as usize], system.inverse_mass(*end));
+                        for ((number, side), inverse) in velocity.iter_mut().zip(side).zip(inverse) {
+                            *number += (kept - reached) * side * inverse;
+                        }
+                    }
+                }
+                point.multipliers = kept;
+            }
+        }
+        is_done
+    }
+}
+
+impl Contact {
+    /// By how much the multipliers of a point change with the velocities.
+    fn gains(&self, point: &Point, velocities: &[Part], change: &[Part]) -> [f64; 3] {
+        let mut gains = [0.0; 3];
+        let [a, b] = self.ends.map(|end| &change[end as usize]);
+        for (gain, (line, target)) in gains.iter_mut().zip(point.held_rows()) {
+            let speed = self.speed(line, velocities) + (dot(&line[0], a) + dot(&line[1], b));
+            *gain = self.stiffness * (target - speed);
+        }
+        gains
+    }
+}
+
+impl Point {
+    /// The Jacobians of the rows that are held, and what they are to lead to.
+    fn held_rows(&self) -> impl Iterator<Item = (&[Part; 2], f64)> {
+        let count = match self.hold {
+            Hold::Off => 0,
+            Hold::Slides => 1,
+            Hold::Sticks => 3,
+        };
+        self.lines.iter().zip(self.targets).take(count)
+    }
+
+    /// What is left of multipliers: none of what has let go, and friction within its cone.
+    fn settle(&mut self, [normal, p, q]: [f64; 3], lets_go: bool, friction: f64) -> [f64; 3] {
+        self.has_let_go |= lets_go;
+        let normal = if lets_go { 0.0 } else { normal.max(0.0) };
+        let (size, limit) = ((p * p + q * q).sqrt(), friction * normal);
+        if size <= limit * CONE {
+            return [normal, p, q];
+        }
+        self.has_slid = true;
+        let scale = limit / size;
+        [normal, p * scale, q * scale]
+    }
+}
