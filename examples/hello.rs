@@ -25,5 +25,7 @@ fn main() -> Result<(), Error> {
         }
         world.step(1.0 / 60.0)?;
     }
+    let lowest = world.body(bodies[0])?.center_of_mass();
+    assert!((lowest.y - 0.5).abs() < 0.01, "the lowest box stays on the floor, not at {lowest} m");
     Ok(())
 }

@@ -13,7 +13,7 @@ pub(super) const CHAIN: NamedScene = NamedScene {
     description: "A heavy ball on a chain of light links is let go level, and swings into a wall.",
     parameters: &[
         Parameter::count("links", "how many links the chain has", 24, (1, 200)),
-        Parameter::count("ratio", "mass of the ball over that of a link", 200, (1, 10_000)),
+        Parameter::count("ratio", "mass of the ball over that of a link", 200, (1, 1000)),
     ],
     document: chain,
 };

@@ -31,7 +31,7 @@ fn ragdoll(p: &Parameters) -> Scene {
         let figure = Figure { place, turn: turn * lean, color: palette(i as usize), first: bodies.len() };
         figure.build(&mut bodies, &mut joints);
     }
-    let camera = camera(Vec3::new(5.2, 2.9, 6.6), Vec3::new(0.0, 1.0, 1.9));
+    let camera = camera(Vec3::new(5.8, 3.6, 7.6), Vec3::new(0.0, 1.5, 1.4));
     Scene { seconds: 8.0, record_every: 2, bodies, joints, camera: Some(camera), ..Scene::default() }
 }
 

@@ -17,6 +17,9 @@ const SKIN: f32 = 0.08;
 /// For how many more steps of the same motion a box is large enough.
 const STEPS_AHEAD: f32 = 1.0;
 
+/// As far as boxes reach, in m: what is about to leave the numbers there are has a box that is finite all the same.
+const FAR: Vec3 = Vec3::splat(1e37);
+
 /// A rigid body for the search.
 struct Boxed {
     body: u32,
@@ -71,7 +74,9 @@ impl RigidSolver {
         let bounds = parts
             .chain(surface)
             .fold(nothing, |sum, part| Aabb { low: sum.low.min(part.low), high: sum.high.max(part.high) });
-        Boxed { body, room, center, axes, bounds: bounds.grown(room) }
+        let bounds = bounds.grown(room);
+        let bounds = Aabb { low: bounds.low.max(-FAR).min(FAR), high: bounds.high.max(-FAR).min(FAR) };
+        Boxed { body, room, center, axes, bounds }
     }
 
     fn pair_up(&mut self, bodies: &[Body], boxed: &[Boxed], settings: &Settings, keys: &mut Vec<Key>) {
