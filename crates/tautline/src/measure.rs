@@ -110,16 +110,15 @@ impl World {
         let boxes: Vec<Aabb> = solids.iter().map(|solid| solid.bounds).collect();
         let movable: Vec<bool> = solids.iter().map(|solid| is_dynamic(solid.body)).collect();
         let (mut search, mut pairs) = (PairSearch::default(), Vec::new());
-        overlapping_pairs(&boxes, &movable, self.settings.instructions, &mut search, &mut pairs);
         let connected = self.joints.separated();
-        for (a, b) in pairs {
-            // Indices grow with the solids, of which the lower comes first.
+        let collide = |a: u32, b: u32| {
+            // Indices grow with the solids.
             let pair = [a.min(b), a.max(b)].map(|solid| indices[solid as usize]);
-            let (a, b) = (&solids[a as usize], &solids[b as usize]);
-            if groups(a.body).collide_with(groups(b.body)) && connected.binary_search(&pair).is_err() {
-                depths.push(a.depth_in(b));
-            }
-        }
+            groups(solids[a as usize].body).collide_with(groups(solids[b as usize].body))
+                && connected.binary_search(&pair).is_err()
+        };
+        overlapping_pairs(&boxes, &movable, collide, self.settings.instructions, &mut search, &mut pairs);
+        depths.extend(pairs.iter().map(|&(a, b)| solids[a as usize].depth_in(&solids[b as usize])));
     }
 
     fn wall_depths(&self, depths: &mut Vec<f32>) {

@@ -193,10 +193,8 @@ mod tests {
 
     #[test]
     fn the_elliptic_integral_is_that_of_the_tables() {
-        // Abramowitz & Stegun, table 17.1: m = k² = 0, 0.5, 0.9.
-        for (m, expected) in
-            [(0.0f64, 1.570_796_326_794_897), (0.5, 1.854_074_677_301_372), (0.9, 2.578_092_113_348_17)]
-        {
+        // Abramowitz & Stegun, table 17.1: m = k² = 0.5, 0.9.
+        for (m, expected) in [(0.0f64, 0.5 * PI), (0.5, 1.854_074_677_301_372), (0.9, 2.578_092_113_348_17)] {
             assert!((elliptic_k(m.sqrt()) - expected).abs() < 1e-12, "{m}");
         }
     }

@@ -86,7 +86,8 @@ fn meshes_with_defects() {
         change(&mut mesh);
         mesh
     };
-    let cases: [(TriMesh, fn(&MeshDefect) -> bool); 6] = [
+    type IsExpected = fn(&MeshDefect) -> bool;
+    let cases: [(TriMesh, IsExpected); 6] = [
         (with(&|m| m.triangles[2][1] = 4), |d| {
             matches!(d, MeshDefect::IndexOutOfRange { triangle: 2, vertex: 4, count: 4 })
         }),

@@ -2,6 +2,7 @@
 
 use super::{ALL, Bvh, Node, Place};
 use crate::collision::Aabb;
+use crate::parallel;
 use crate::simd::{Instructions, Kernel, LANES, Lanes, run};
 
 /// The tree of the last search is kept until it takes this many times as many tests as when it was built.
@@ -20,18 +21,24 @@ pub(crate) struct PairSearch {
     tests_when_built: usize,
     /// For every node of the tree one bit for each child in which something is movable.
     movable: Vec<u8>,
-    stack: Vec<(Place, Place)>,
     found: Vec<(u32, u32)>,
     sorted: Vec<(u32, u32)>,
     starts: Vec<u32>,
 }
 
-/// Writes the pairs (a, b), a < b, of boxes that overlap or touch, of which at least one is `movable`, ascending.
+/// From so many boxes on it pays to search side by side, …
+const WORTHWHILE: usize = 1024;
+/// … from so many pairs of nodes at a time.
+const CHUNK: usize = 16;
+
+/// Writes the pairs (a, b), a < b, of boxes that overlap or touch, of which at least one is `movable` and which
+/// `may_meet`, ascending.
 ///
-/// There are as many flags as boxes, and the boxes are finite.
+/// There are as many flags as boxes.
 pub(crate) fn overlapping_pairs(
     boxes: &[Aabb],
     movable: &[bool],
+    may_meet: impl Fn(u32, u32) -> bool + Sync,
     instructions: Instructions,
     search: &mut PairSearch,
     pairs: &mut Vec<(u32, u32)>,
@@ -43,7 +50,7 @@ pub(crate) fn overlapping_pairs(
         search.tree.build(boxes);
     }
     search.mark(movable);
-    let tests = run(instructions, SelfOverlap(search));
+    let tests = search.descend(&may_meet, instructions);
     if !is_kept {
         search.tests_when_built = tests;
     } else if tests as f32 > WORN_OUT * search.tests_when_built as f32 {
@@ -69,6 +76,35 @@ impl PairSearch {
         }
     }
 
+    /// Fills `found`, in any order; returns how many times it tested two nodes.
+    fn descend(
+        &mut self,
+        may_meet: &(impl Fn(u32, u32) -> bool + Sync),
+        instructions: Instructions,
+    ) -> usize {
+        let Self { tree, movable, found, .. } = self;
+        found.clear();
+        let Some(root) = tree.root() else { return 0 };
+        // Side by side, what lies two levels under the root.
+        let worthwhile = parallel::is_worthwhile(tree.len(), WORTHWHILE);
+        let floor = if worthwhile { root.level.saturating_sub(2) } else { 0 };
+        let mut top = Descent::from(vec![(root, root)]);
+        run(instructions, SelfOverlap { tree, movable, may_meet, descent: &mut top, floor });
+        found.append(&mut top.found);
+        let mut descents: Vec<Descent> =
+            top.left.chunks(CHUNK).map(|stack| Descent::from(stack.to_vec())).collect();
+        parallel::for_each(&mut descents, worthwhile, |descent| {
+            run(instructions, SelfOverlap { tree, movable, may_meet, descent, floor: 0 });
+        });
+        descents.iter_mut().for_each(|descent| found.append(&mut descent.found));
+        top.tests + descents.iter().map(|descent| descent.tests).sum::<usize>()
+    }
+
+    /// Gives back memory that the next search can do without.
+    pub(crate) fn shrink(&mut self) {
+        (self.found, self.sorted, self.starts) = (Vec::new(), Vec::new(), Vec::new());
+    }
+
     /// By b, then by a without disturbing what is equal there, each time counting: several times faster than
     /// comparing.
     fn sort(&mut self, count: usize, pairs: &mut Vec<(u32, u32)>) {
@@ -82,21 +118,41 @@ fn bits(flags: impl Iterator<Item = bool>) -> u8 {
     (0..).zip(flags).fold(0, |bits, (lane, flag)| bits | u8::from(flag) << lane)
 }
 
-/// Descends the tree against itself; returns how many times it tested two nodes.
-struct SelfOverlap<'a>(&'a mut PairSearch);
+/// A way down the tree.
+#[derive(Debug, Default)]
+struct Descent {
+    /// Pairs of nodes that are still to be tested.
+    stack: Vec<(Place, Place)>,
+    found: Vec<(u32, u32)>,
+    /// Pairs of nodes that are left to others.
+    left: Vec<(Place, Place)>,
+    tests: usize,
+}
 
-impl Kernel for SelfOverlap<'_> {
-    type Output = usize;
+impl From<Vec<(Place, Place)>> for Descent {
+    fn from(stack: Vec<(Place, Place)>) -> Self {
+        Self { stack, ..Self::default() }
+    }
+}
+
+/// Descends the tree against itself, to boxes, or to nodes on the level `floor`.
+struct SelfOverlap<'a, F> {
+    tree: &'a Bvh,
+    movable: &'a [u8],
+    may_meet: &'a F,
+    descent: &'a mut Descent,
+    floor: u32,
+}
+
+impl<F: Fn(u32, u32) -> bool> Kernel for SelfOverlap<'_, F> {
+    type Output = ();
 
     #[inline(always)]
-    fn run<L: Lanes>(self) -> usize {
-        let PairSearch { tree, movable, stack, found, .. } = self.0;
-        found.clear();
-        stack.clear();
-        stack.extend(tree.root().map(|root| (root, root)));
-        let mut tests = 0;
+    fn run<L: Lanes>(self) {
+        let Self { tree, movable, may_meet, descent, floor } = self;
+        let Descent { stack, found, left, tests } = descent;
         while let Some((x, y)) = stack.pop() {
-            tests += 1;
+            *tests += 1;
             let marks = [x, y].map(|place| u64::from(movable[tree.slot(place)]));
             let mut hits = crossing::<L>(tree.node(x), tree.node(y)) & either(marks);
             if x == y {
@@ -106,16 +162,21 @@ impl Kernel for SelfOverlap<'_> {
             while hits != 0 {
                 let bit = hits.trailing_zeros();
                 hits &= hits - 1;
-                let (below_x, below_y) = (x.child(bit / 8), y.child(bit % 8));
+                let (Some(below_x), Some(below_y)) = (tree.child(x, bit / 8), tree.child(y, bit % 8)) else {
+                    continue;
+                };
                 if x.level == 1 {
                     let (a, b) = (tree.item(below_x), tree.item(below_y));
-                    found.push((a.min(b), a.max(b)));
+                    if may_meet(a, b) {
+                        found.push((a.min(b), a.max(b)));
+                    }
+                } else if below_x.level == floor {
+                    left.push((below_x, below_y));
                 } else {
                     stack.push((below_x, below_y));
                 }
             }
         }
-        tests
     }
 }
 
@@ -124,7 +185,11 @@ impl Kernel for SelfOverlap<'_> {
 /// All 64 tests, though a few could be spared: they cost less than a branch that cannot be foreseen.
 #[inline(always)]
 fn crossing<L: Lanes>(x: &Node, y: &Node) -> u64 {
-    (0..LANES).fold(0, |hits, i| hits | u64::from(y.overlapping::<L>(x.splat(i))) << (LANES * i))
+    let mut hits = 0;
+    for i in 0..LANES {
+        hits |= u64::from(y.overlapping::<L>(x.splat(i))) << (LANES * i);
+    }
+    hits
 }
 
 /// Bit 8 i + j says whether bit i of `x` or bit j of `y` is set.
@@ -189,7 +254,7 @@ mod tests {
             let movable: Vec<bool> = boxes.iter().map(|_| noise(&mut seed) * 2.0 + 2.0 >= still as f32).collect();
             for instructions in SETS {
                 let (mut search, mut pairs) = (PairSearch::default(), vec![(7, 7)]);
-                overlapping_pairs(&boxes, &movable, instructions, &mut search, &mut pairs);
+                overlapping_pairs(&boxes, &movable, |_, _| true, instructions, &mut search, &mut pairs);
                 prop_assert_eq!(&pairs, &all_pairs(&boxes, &movable));
             }
         }
@@ -204,7 +269,7 @@ mod tests {
                 // All of it in other places, or another number of boxes.
                 for boxes in [&scene[..count], &scene[..]] {
                     let movable = vec![true; boxes.len()];
-                    overlapping_pairs(boxes, &movable, Instructions::Widest, &mut search, &mut pairs);
+                    overlapping_pairs(boxes, &movable, |_, _| true, Instructions::Widest, &mut search, &mut pairs);
                     prop_assert_eq!(&pairs, &all_pairs(boxes, &movable));
                 }
             }
@@ -215,7 +280,14 @@ mod tests {
     fn a_hundred_boxes_in_one_place_all_overlap() {
         let boxes = vec![Aabb::around(&[Vec3::ONE], 0.5); 100];
         let mut pairs = Vec::new();
-        overlapping_pairs(&boxes, &[true; 100], Instructions::Widest, &mut PairSearch::default(), &mut pairs);
+        overlapping_pairs(
+            &boxes,
+            &[true; 100],
+            |_, _| true,
+            Instructions::Widest,
+            &mut PairSearch::default(),
+            &mut pairs,
+        );
         assert_eq!(pairs, all_pairs(&boxes, &[true; 100]));
         assert_eq!(pairs.len(), 4950);
     }
@@ -225,7 +297,14 @@ mod tests {
         let boxes = pile(3000, 1);
         let movable: Vec<bool> = (0..boxes.len()).map(|i| i % 3 > 0).collect();
         let mut pairs = Vec::new();
-        overlapping_pairs(&boxes, &movable, Instructions::Widest, &mut PairSearch::default(), &mut pairs);
+        overlapping_pairs(
+            &boxes,
+            &movable,
+            |_, _| true,
+            Instructions::Widest,
+            &mut PairSearch::default(),
+            &mut pairs,
+        );
         assert_eq!(pairs, all_pairs(&boxes, &movable));
     }
 
@@ -236,7 +315,7 @@ mod tests {
         let mut movable = vec![false; boxes.len()];
         movable[17] = true;
         let (mut search, mut pairs) = (PairSearch::default(), Vec::new());
-        overlapping_pairs(&boxes, &movable, Instructions::Widest, &mut search, &mut pairs);
+        overlapping_pairs(&boxes, &movable, |_, _| true, Instructions::Widest, &mut search, &mut pairs);
         assert!(search.tests_when_built < 100, "{}", search.tests_when_built);
     }
 
@@ -248,7 +327,14 @@ mod tests {
         let mut count_tests = |boxes: &[Aabb]| {
             let mut pairs = Vec::new();
             search.tests_when_built = 0;
-            overlapping_pairs(boxes, &vec![true; boxes.len()], Instructions::Widest, &mut search, &mut pairs);
+            overlapping_pairs(
+                boxes,
+                &vec![true; boxes.len()],
+                |_, _| true,
+                Instructions::Widest,
+                &mut search,
+                &mut pairs,
+            );
             (search.tests_when_built, pairs.len())
         };
         let (alone, pairs_alone) = count_tests(&boxes);
@@ -288,7 +374,14 @@ mod tests {
             search.tests_when_built = 0;
             let mut find = || {
                 let movable = vec![true; boxes.len()];
-                overlapping_pairs(&boxes, &movable, Instructions::Widest, &mut search, &mut pairs);
+                overlapping_pairs(
+                    &boxes,
+                    &movable,
+                    |_, _| true,
+                    Instructions::Widest,
+                    &mut search,
+                    &mut pairs,
+                );
             };
             let times = [seconds(&mut find), seconds(&mut find), {
                 let tree = Bvh::new(&boxes);

@@ -74,8 +74,9 @@ impl<F: FnMut(u32)> Kernel for Overlaps<'_, F> {
         while let Some(place) = stack.pop() {
             let mut hits = self.tree.node(place).overlapping(bounds);
             while hits != 0 {
-                let child = place.child(hits.trailing_zeros());
+                let child = self.tree.child(place, hits.trailing_zeros());
                 hits &= hits - 1;
+                let Some(child) = child else { continue };
                 if child.level == 0 {
                     (self.visit)(self.tree.item(child));
                 } else {
@@ -167,7 +168,8 @@ impl<B: Bound, F: FnMut(u32, f32) -> f32> Kernel for NearestFirst<'_, B, F> {
             while hits != 0 {
                 let lane = hits.trailing_zeros();
                 hits &= hits - 1;
-                stack.push((row.0[lane as usize], place.child(lane)));
+                let child = self.tree.child(place, lane);
+                stack.extend(child.map(|child| (row.0[lane as usize], child)));
             }
             stack[first..].sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(b.1.cmp(&a.1)));
         }
@@ -178,7 +180,8 @@ impl<B: Bound, F: FnMut(u32, f32) -> f32> Kernel for NearestFirst<'_, B, F> {
 mod tests {
     use proptest::prelude::*;
 
-    use super::super::tests::{SETS, boxes};
+    use super::super::tests::{SETS, boxes, pile};
+    use super::super::{PairSearch, overlapping_pairs};
     use super::*;
 
     fn vector(range: std::ops::Range<f32>) -> impl Strategy<Value = Vec3> {
@@ -201,6 +204,47 @@ mod tests {
             (enter, leave) = (enter.max(s.min(t)), leave.min(s.max(t)));
         }
         (enter <= leave).then_some(enter)
+    }
+
+    /// Infinity less the infinity of an empty lane is no number, and was taken for an overlap: the number of a box that
+    /// there is not.
+    #[test]
+    fn what_is_not_finite_does_not_meet_empty_lanes() {
+        let extremes = [f32::INFINITY, f32::NEG_INFINITY, f32::NAN, f32::MAX, -f32::MAX, 0.0];
+        let odd = || {
+            extremes
+                .into_iter()
+                .flat_map(|low| extremes.map(|high| [low, high]))
+                .map(|[low, high]| Aabb { low: Vec3::splat(low), high: Vec3::splat(high) })
+        };
+        for count in [1, 3, 9, 70] {
+            let ordinary = || pile(count, 1).into_iter();
+            for boxes in odd().map(|odd| ordinary().chain([odd]).collect::<Vec<_>>()) {
+                let mut found = Vec::new();
+                let (mut search, movable) = (PairSearch::default(), vec![true; boxes.len()]);
+                overlapping_pairs(
+                    &boxes,
+                    &movable,
+                    |_, _| true,
+                    Instructions::Widest,
+                    &mut search,
+                    &mut found,
+                );
+                let expected = |a: u32, b: u32| boxes[a as usize].overlaps(&boxes[b as usize]);
+                let others = (0..count as u32).flat_map(|b| (0..b).map(move |a| (a, b)));
+                assert!(
+                    others.filter(|&(a, b)| expected(a, b)).all(|pair| found.binary_search(&pair).is_ok())
+                );
+                let tree = Bvh::new(&boxes);
+                for asked in odd() {
+                    tree.overlaps(asked, Instructions::Widest, |index| {
+                        assert!((index as usize) < boxes.len())
+                    });
+                    tree.nearest(asked.low, f32::INFINITY, Instructions::Widest, |_, at_least| at_least);
+                    tree.sweep(asked, asked.high, f32::INFINITY, Instructions::Widest, |_, enter| enter);
+                }
+            }
+        }
     }
 
     proptest! {

@@ -43,8 +43,8 @@ pub(super) struct Block {
     pub(super) constants: Constants,
     /// Centres of mass when the step began, in m.
     pub(super) center: Rows3,
-    /// How far they have moved since the step began, in m. By itself, so that it is not rounded to what is left of
-    /// a centre far from the origin.
+    /// How far they have moved since the step began, in m, and what was rounded off the centres then. By itself, so
+    /// that it is not rounded to what is left of a centre far from the origin.
     pub(super) shift: Rows3,
     /// Axes: the columns of the rotation R from the principal frame.
     pub(super) axes: [Rows3; 3],
@@ -89,6 +89,9 @@ fn spin_of<L: Lanes>(
     Vec3x8::new(momentum.x / inertia.x, momentum.y / inertia.y, momentum.z / inertia.z)
 }
 
+/// How many times further out than its particles a body is far.
+const FAR: f32 = 8.0;
+
 #[inline(always)]
 fn store_particle<L: Lanes>(vector: Vec3x8<L>, rows: &mut [Row]) {
     vector.x.store(&mut rows[0]);
@@ -108,7 +111,12 @@ impl Block {
         let quarter = L::splat(0.25);
         let (x, d) = (particles::<L>(positions), particles::<L>(displacements));
         let (front, back) = (x[0] + x[1], x[2] + x[3]);
-        let center = (front + back) * quarter;
+        // Far out from the first particle on: sums of four are rounded coarser than they are.
+        let near = (front + back) * quarter;
+        let offset = ((x[1] - x[0]) + ((x[2] - x[0]) + (x[3] - x[0]))) * quarter;
+        let is_far = self.is_far(near);
+        let center = Vec3x8::select(is_far, x[0] + offset, near);
+        let shift = Vec3x8::select(is_far, offset - (center - x[0]), Vec3x8::zero());
         let (first, second) = (front - back, (x[0] - x[1]) + (x[2] - x[3]));
         // The largest two of the axes, since those are the best known: moments are in descending order.
         let e0 = rigidity::unit(first * (L::splat(1.0) / first.length()));
@@ -127,10 +135,17 @@ impl Block {
         }
         let angular = first + spin_of(&rest, &arms, &axes, inertia);
         center.store(&mut self.center);
-        Vec3x8::<L>::zero().store(&mut self.shift);
+        shift.store(&mut self.shift);
         axes.store(&mut self.axes);
         axes.store(&mut self.start_axes);
         Motion { linear: linear * scale, angular: angular * scale }
+    }
+
+    /// A mask: whether a centre is so far from the origin that rounding it matters more than rounding axes.
+    #[inline(always)]
+    fn is_far<L: Lanes>(&self, center: Vec3x8<L>) -> L {
+        let spread = Vec3x8::<L>::load(&self.constants.spread);
+        center.length_squared().greater(spread.length_squared() * L::splat(FAR * FAR))
     }
 
     /// From the principal frames to the world.
@@ -147,15 +162,24 @@ impl Block {
         positions: &mut ParticleRows,
         displacements: &mut ParticleRows,
     ) {
-        let center = Vec3x8::<L>::load(&self.center) + Vec3x8::load(&self.shift);
+        let (center, shift) = (Vec3x8::<L>::load(&self.center), Vec3x8::load(&self.shift));
         let axes = Matrix3x8::<L>::load(&self.axes);
         let spread = Vec3x8::<L>::load(&self.constants.spread);
         let (e0, e1, e2) = (axes.0[0] * spread.x, axes.0[1] * spread.y, axes.0[2] * spread.z);
         let linear = Vec3x8::new(columns[0], columns[1], columns[2]);
         let turn = self.turn(columns);
         let arms = [e0 + e1 + e2, e0 - e1 - e2, e1 - e0 - e2, e2 - e0 - e1];
-        for (k, arm) in arms.into_iter().enumerate() {
-            let (x, d) = (center + arm, linear + turn.cross(arm));
+        // Far out the shift is not to be rounded with the centre, and the first particle makes up for what rounding takes
+        // from the others: at a constant speed that is the same in every step, and would add up. Near the origin that
+        // would only disturb the axes.
+        let is_far = self.is_far(center);
+        let moved = Vec3x8::select(is_far, shift, Vec3x8::zero());
+        let center = Vec3x8::select(is_far, center, center + shift);
+        let mut lost = Vec3x8::zero();
+        for (k, arm) in arms.into_iter().enumerate().rev() {
+            let (arm, d) = (moved + arm, linear + turn.cross(arm));
+            let x = if k == 0 { center + (arm + lost) } else { center + arm };
+            lost = lost + Vec3x8::select(is_far, (center - x) + arm, Vec3x8::zero());
             store_particle(x, &mut positions[3 * k..]);
             store_particle(d, &mut displacements[3 * k..]);
         }

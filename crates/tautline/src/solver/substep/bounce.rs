@@ -40,7 +40,9 @@ const GRAVITY_STEPS: f32 = 2.0;
 /// Further than anything reaches in a substep, in m.
 const OUT_OF_REACH: f32 = 1e9;
 /// Most visits of the contacts of a blow that goes through several bodies.
-pub(super) const MOST_VISITS: usize = 12;
+pub(super) const MOST_VISITS: usize = 32;
+/// How often the points of bodies that meet are visited in turn before these move: one visit would turn what lands flat.
+pub(super) const LANDING_VISITS: usize = 32;
 
 impl Bounce {
     pub(super) fn new(batch: u32) -> Self {
@@ -94,6 +96,11 @@ impl Bounce {
         }
         L::scatter(sum_a.changes(), accumulated, &batch.a);
         L::scatter(sum_b.changes(), accumulated, &batch.b);
+    }
+
+    /// Whether any of its bodies meet in this substep.
+    pub(super) fn is_landing(&self) -> bool {
+        self.points.iter().any(|point| point.meets.0.iter().any(|mask| mask.to_bits() != 0))
     }
 
     /// After the relaxing pass: the contacts that were not felt have moved too.

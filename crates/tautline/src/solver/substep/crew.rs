@@ -1,6 +1,7 @@
 //! The bodies of a lineup: their blocks, and their rows for the solver.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -8,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::body::{Body, CORNERS, Motion as MotionKind, Rigid, Substance};
 use crate::parallel;
 use crate::particles::Particles;
+use crate::shape::Shape;
 use crate::simd::{Instructions, Kernel, LANES, Lanes, Row, Vec3x8, run};
 
 use super::block::{Block, Constants, Motion, ParticleRows, Rows3, particles};
@@ -63,6 +65,8 @@ pub(super) struct Track {
 pub(super) struct Crew {
     pub(super) blocks: Vec<Block>,
     pub(super) tracks: Vec<Track>,
+    /// Where there is a body.
+    pub(super) shapes: Vec<Option<Arc<Shape>>>,
     /// Two rows for each place, see `prepare::Poses`.
     pub(super) poses: Vec<Row>,
     /// One for each place, see `block`.
@@ -92,9 +96,11 @@ impl Crew {
     pub(super) fn new(lineup: &Lineup, bodies: &[Body]) -> Self {
         let count = lineup.places.len();
         let block = |places: &[u32]| new_block(places, bodies);
+        let shape = |&place: &u32| rigid_at(place, bodies).map(|(_, rigid)| Arc::clone(&rigid.shape));
         Self {
             blocks: lineup.places.chunks(LANES).map(block).collect(),
             tracks: vec![Track::default(); count / LANES],
+            shapes: lineup.places.iter().map(shape).collect(),
             poses: vec![Row::ZERO; 2 * count],
             velocities: vec![Row::ZERO; count],
             accumulated: vec![Row::ZERO; count],
@@ -179,9 +185,9 @@ impl Crew {
     }
 
     /// How the centre of what is in a place moves in a whole step, and how far its turning moves its points, in m.
-    pub(super) fn motion(&self, place: usize, timing: &Timing) -> (Vec3, f32) {
+    pub(super) fn motion(&self, place: usize, substeps: f32) -> (Vec3, f32) {
         let (velocity, pose) = (&self.velocities[place].0, &self.poses[2 * place + 1].0);
-        (Vec3::new(velocity[0], velocity[1], velocity[2]) * timing.substeps, pose[6])
+        (Vec3::new(velocity[0], velocity[1], velocity[2]) * substeps, pose[6])
     }
 
     /// Gives a body a velocity whose change is not to be given to it again in the next substep.

@@ -1,16 +1,21 @@
 //! From poses to contacts: the narrow phase over the list of pairs.
 //!
 //! A body's version rises when it has moved more than a quarter of a millimetre; a pair whose versions are the same
-//! keeps its contact, and the solver finds its distances from the anchors. Else the axis remembered of the pair is
-//! tried, which ends half of the pairs that moved, and only then the distance is searched for.
+//! keeps its contact, and the solver finds its distances from the anchors. Else the balls around both bodies are
+//! looked at, which ends more than half of the pairs that moved; then the axis remembered of the pair is tried, and
+//! only then the distance is searched for.
+
+use std::sync::Arc;
 
 use glam::{Mat3, Vec3};
 
-use super::held::{Held, HeldPoint};
+use super::held::{Held, HeldPoint, NAMELESS};
 use super::pairs::{Detail, Pair};
 use crate::body::{Body, HalfSpace, Substance};
-use crate::geometry::manifold::{Manifold, Placement, Scratch, collide, collide_plane, collide_triangle};
-use crate::shape::{Convex, Surface};
+use crate::geometry::manifold::{
+    Manifold, Memory, Placement, Scratch, collide, collide_plane, collide_triangle,
+};
+use crate::shape::{Convex, Shape, Surface};
 use crate::simd::{Kernel, Lanes, Row};
 
 /// What the narrow phase reads.
@@ -19,6 +24,8 @@ pub(super) struct Scene<'a> {
     pub(super) bodies: &'a [Body],
     pub(super) versions: &'a [u32],
     pub(super) place_of: &'a [u32],
+    /// One for each place.
+    pub(super) shapes: &'a [Option<Arc<Shape>>],
     /// Two for each place, see `prepare`.
     pub(super) poses: &'a [Row],
     /// One for each place: motion in a substep.
@@ -34,6 +41,8 @@ const LETS_GO: f32 = 1e-3;
 const SAME_PLACE_SQUARED: f32 = 0.02;
 /// By how much the speed that bodies approach each other at counts for how far ahead contacts are found.
 const LOOK_AHEAD: f32 = 1.5;
+/// What share of their motion counts as approach whatever its direction.
+const SIDEWAYS: f32 = 0.1;
 
 /// A body's place in the world.
 #[derive(Clone, Copy)]
@@ -53,7 +62,13 @@ impl Placed {
         Self { center: Vec3::ZERO, axes: Mat3::IDENTITY, motion: Vec3::ZERO, turning: 0.0, reach: 0.0 };
 }
 
-impl Scene<'_> {
+impl<'a> Scene<'a> {
+    /// The shape of a body, if it is a rigid one.
+    #[inline(always)]
+    fn shape(&self, body: u32) -> Option<&'a Shape> {
+        self.shapes.get(self.place_of[body as usize] as usize)?.as_deref()
+    }
+
     #[inline(always)]
     pub(super) fn placed(&self, body: u32) -> Placed {
         let place = self.place_of[body as usize] as usize;
@@ -76,6 +91,17 @@ impl Scene<'_> {
         placed.motion.length() + placed.turning
     }
 
+    /// Whether the balls around two bodies are further apart than contacts are looked for.
+    #[inline(always)]
+    fn are_apart(&self, a: &Placed, b: &Placed) -> bool {
+        let (between, approach) = (b.center - a.center, a.motion - b.motion);
+        let distance = between.length();
+        let closing = (between.dot(approach) / distance).max(0.0) + SIDEWAYS * approach.length();
+        let margin = self.margin + 0.5 * (a.turning + b.turning) + LOOK_AHEAD * closing;
+        distance > a.reach + b.reach + margin
+    }
+
+    #[inline(always)]
     fn stamp(&self, pair: &Pair) -> u32 {
         self.versions[pair.a as usize].wrapping_add(self.versions[pair.b as usize])
     }
@@ -108,39 +134,46 @@ impl Kernel for Detect<'_> {
 #[inline(always)]
 fn update<L: Lanes>(scene: Scene<'_>, pair: &mut Pair, detail: &mut Detail, scratch: &mut Scratch) {
     let a = scene.placed(pair.a);
-    let Some(part_a) = part(scene.bodies, pair.a, detail.part_a) else { return };
-    let (manifold, b) = match &scene.bodies[pair.b as usize].substance {
-        Substance::HalfSpace(wall) => {
-            (collide_with_wall::<L>(scene, part_a, &a, wall, scratch), Placed::WORLD)
-        }
-        Substance::Rigid(rigid) => {
+    let (manifold, b) = match scene.shape(pair.b) {
+        Some(shape) => {
             let b = scene.placed(pair.b);
-            let manifold = match rigid.shape.surface() {
+            if scene.are_apart(&a, &b) {
+                // What is remembered would be of another approach: the margin of a fast one has to be its own.
+                if pair.points > 0 || detail.memory.axis != Vec3::ZERO {
+                    detail.memory = Memory::default();
+                    (pair.points, detail.held) = (0, None);
+                }
+                return;
+            }
+            let Some(part_a) = part(scene, pair.a, detail.part_a) else { return };
+            let manifold = match shape.surface() {
                 Some(surface) => {
                     collide_with_triangle::<L>(scene, (part_a, surface), (&a, &b), detail, scratch)
                 }
                 None => {
-                    let Some(part_b) = part(scene.bodies, pair.b, detail.part_b) else { return };
+                    let Some(part_b) = part(scene, pair.b, detail.part_b) else { return };
                     collide_parts::<L>(scene, (part_a, part_b), (&a, &b), detail, scratch)
                 }
             };
             (manifold, b)
         }
-        Substance::Truss { .. } | Substance::Deformable(_) => return,
+        None => {
+            let Substance::HalfSpace(wall) = &scene.bodies[pair.b as usize].substance else { return };
+            let Some(part_a) = part(scene, pair.a, detail.part_a) else { return };
+            (collide_with_wall::<L>(scene, part_a, &a, wall, scratch), Placed::WORLD)
+        }
     };
-    pair.points = manifold.count as u32;
     if manifold.count > 0 {
         hold(&manifold, (&a, &b), detail);
-    } else if let Some(held) = &mut detail.held {
-        held.forget();
+    } else if pair.points > 0 {
+        detail.held = None;
     }
+    pair.points = manifold.count as u32;
 }
 
-fn part(bodies: &[Body], body: u32, part: u32) -> Option<&Convex> {
-    match &bodies[body as usize].substance {
-        Substance::Rigid(rigid) => rigid.shape.parts().get(part as usize).map(|part| &part.convex),
-        _ => None,
-    }
+#[inline(always)]
+fn part<'a>(scene: Scene<'a>, body: u32, part: u32) -> Option<&'a Convex> {
+    scene.shape(body)?.parts().get(part as usize).map(|part| &part.convex)
 }
 
 /// The points on the wall are in the world's frame.
@@ -185,7 +218,7 @@ fn collide_with_triangle<L: Lanes>(
     let (b_in_a, approach, base) = relative(scene, a, b);
     let triangle = surface.triangle(detail.part_b);
     let closing = -(b_in_a.rotation * triangle.normal).dot(approach);
-    let margin = base + LOOK_AHEAD * (closing.max(0.0) + 0.1 * approach.length());
+    let margin = base + LOOK_AHEAD * (closing.max(0.0) + SIDEWAYS * approach.length());
     collide_triangle::<L>(part, &triangle, &b_in_a, (&mut detail.memory, scratch), margin)
 }
 
@@ -202,7 +235,7 @@ fn collide_parts<L: Lanes>(
     let closing = if axis == Vec3::ZERO {
         approach.length()
     } else {
-        axis.dot(approach).max(0.0) + 0.1 * approach.length()
+        axis.dot(approach).max(0.0) + SIDEWAYS * approach.length()
     };
     let margin = base + LOOK_AHEAD * closing;
     collide::<L>(part_a, part_b, &b_in_a, (&mut detail.memory, scratch), margin)
@@ -213,11 +246,16 @@ fn collide_parts<L: Lanes>(
 fn hold(manifold: &Manifold, (a, b): (&Placed, &Placed), detail: &mut Detail) {
     let normal = a.axes * manifold.normal;
     let mut held = Held::new(normal, detail.touch);
-    let old = detail.held.get_or_insert_default();
-    let old_normal = old.normal();
     for (point, found) in held.points.iter_mut().zip(&manifold.points[..manifold.count]) {
         *point = HeldPoint::new(found.on_a, found.on_b, name(found.key));
-        let Some(before) = predecessor(old, name(found.key), found.on_a, a.reach) else { continue };
+    }
+    let Some(old) = &mut detail.held else {
+        detail.held = Some(Box::new(held));
+        return;
+    };
+    let old_normal = old.normal();
+    for point in &mut held.points[..manifold.count] {
+        let Some(before) = predecessor(old, point.key(), point.on_a(), a.reach) else { continue };
         let distance = (b.center + b.axes * before.on_b()) - (a.center + a.axes * before.on_a());
         let sticks = before.normal_impulse() > 0.0 && distance.dot(old_normal) < LETS_GO;
         let slip =
@@ -226,9 +264,6 @@ fn hold(manifold: &Manifold, (a, b): (&Placed, &Placed), detail: &mut Detail) {
     }
     **old = held;
 }
-
-/// The name of points that are not there.
-const NAMELESS: u32 = 0;
 
 /// Of features, never `NAMELESS`.
 fn name(key: u32) -> u32 {

@@ -6,7 +6,7 @@ use crate::parallel;
 use crate::simd::{Instructions, Kernel, LANES, Lanes, Row, run};
 
 use super::batch::{Active, Batch, Colouring, HeaderRows, PointRows};
-use super::bounce::{Bounce, MOST_VISITS};
+use super::bounce::{Bounce, LANDING_VISITS, MOST_VISITS};
 use super::contact::{Pass, Softness, pass};
 use super::crew::Crew;
 use super::lineup::{Lineup, Region};
@@ -226,6 +226,15 @@ impl Groups {
         });
     }
 
+    /// After the biased pass: lets all points of bodies that meet in this substep do so together.
+    pub(super) fn land(&mut self, softness: &Softness, velocities: &mut [Row], instructions: Instructions) {
+        if self.has_bounces() {
+            self.for_each(velocities, |group, velocities| {
+                run(instructions, Land { softness, group, velocities });
+            });
+        }
+    }
+
     /// After the relaxing pass: blows part the bodies that met.
     pub(super) fn part(&mut self, velocities: &mut [Row], instructions: Instructions) {
         if !self.has_bounces() {
@@ -311,6 +320,28 @@ impl Kernel for Meet<'_> {
             let number = bounce.batch as usize;
             let contacts = (&batches[number], &headers[number], &mut points[batches[number].range()]);
             bounce.meet::<L>(contacts, (self.velocities, self.kicks), self.accumulated, self.h);
+        }
+    }
+}
+
+struct Land<'a> {
+    softness: &'a Softness,
+    group: &'a mut Group,
+    velocities: &'a mut [Row],
+}
+
+impl Kernel for Land<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Group { batches, headers, points, bounces, .. } = self.group;
+        for bounce in bounces.iter().filter(|bounce| bounce.is_landing()) {
+            let own = bounce.batch as usize..bounce.batch as usize + 1;
+            for _ in 0..LANDING_VISITS {
+                let (batch, header) = (&batches[own.clone()], &headers[own.clone()]);
+                pass::<L>(Pass::Biased, self.softness, batch, header, points, self.velocities);
+            }
         }
     }
 }

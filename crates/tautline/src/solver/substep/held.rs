@@ -9,6 +9,9 @@ use crate::simd::Row;
 /// The most points that a pair is held at.
 pub(crate) const MOST_POINTS: usize = 4;
 
+/// The name of points that are not there.
+pub(super) const NAMELESS: u32 = 0;
+
 /// The contact of a pair. It is rows of eight numbers because the solver reads it for eight pairs at a time.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Held {
@@ -48,11 +51,6 @@ impl Held {
         held
     }
 
-    /// Apart: nothing goes on from it.
-    pub(super) fn forget(&mut self) {
-        self.points = Self::EMPTY.points;
-    }
-
     /// Whether its numbers are finite, names aside.
     pub(super) fn is_sound(&self) -> bool {
         let points =
@@ -62,6 +60,10 @@ impl Held {
 
     pub(crate) fn normal(&self) -> Vec3 {
         vector(&self.header, 0)
+    }
+
+    pub(super) fn friction(&self) -> f32 {
+        self.header.0[3]
     }
 }
 
@@ -84,6 +86,11 @@ impl HeldPoint {
 
     pub(super) fn key(&self) -> u32 {
         self.anchors.0[7].to_bits()
+    }
+
+    /// Whether it is one: contacts have room for more points than they need.
+    pub(super) fn is_there(&self) -> bool {
+        self.key() != NAMELESS
     }
 
     /// In kg m.

@@ -12,6 +12,7 @@ mod contact;
 mod crew;
 mod detect;
 mod elimination;
+mod finish;
 mod group;
 mod held;
 mod island;
@@ -24,11 +25,9 @@ mod rigidity;
 mod rolling;
 mod stack;
 
-use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use crate::body::{Body, Frame, Motion, Substance};
-use crate::collision::bvh::PairSearch;
 use crate::geometry::manifold;
 use crate::joint::{Joints, State as JointState};
 use crate::parallel;
@@ -36,6 +35,7 @@ use crate::particles::Particles;
 use crate::settings::Settings;
 use crate::simd::{LANES, run};
 
+use boxes::BoxSearch;
 use contact::{Pass, Softness};
 use crew::{Crew, Timing, Track};
 use detect::{Detect, Scene};
@@ -73,7 +73,7 @@ pub(crate) struct RigidSolver {
     /// Pairs of bodies that do not collide since a joint connects them, sorted.
     separated: Vec<[u32; 2]>,
     softness: Softness,
-    search: PairSearch,
+    search: BoxSearch,
     scratch: manifold::Scratch,
 }
 
@@ -167,6 +167,8 @@ impl RigidSolver {
         let leaves = self.crew.count_versions(&self.lineup, &mut self.versions);
         if is_first || leaves {
             self.find_pairs(bodies, settings);
+        } else {
+            self.end_search();
         }
     }
 
@@ -221,7 +223,7 @@ impl RigidSolver {
         let is_held = self.joints.held(self.lineup.solved);
         let timing = timing(settings, h);
         let where_and_how = (&self.lineup, &self.crew, &timing);
-        let found = stack::find(&self.pairs.pairs, where_and_how, |place| is_held[place as usize]);
+        let found = stack::find(&self.pairs, where_and_how, |place| is_held[place as usize]);
         let mut is_stacked = Vec::new();
         if !found.is_empty() {
             is_stacked.resize(self.pairs.pairs.len(), false);
@@ -244,6 +246,7 @@ impl RigidSolver {
         let aim = |is_biased| Aim { softness: &softness, is_biased, kick };
         self.stacks.solve(aim(true), &mut self.groups, &mut self.crew);
         self.groups.pass(Pass::Biased, &self.softness, &mut self.crew.velocities, instructions);
+        self.groups.land(&self.softness, &mut self.crew.velocities, instructions);
         self.joints.solve(&mut self.crew, settings, h);
         self.stacks.look_ahead(&self.crew);
         self.crew.advance(&self.lineup, &timing);
@@ -254,64 +257,9 @@ impl RigidSolver {
         self.groups.resist_rolling(&mut self.crew.velocities, instructions);
     }
 
-    /// Writes the particles, and keeps the multipliers for the next step. A body that is not finite any more stays
-    /// where it was, and is told of.
-    pub(crate) fn finish(
-        &mut self,
-        bodies: &mut [Body],
-        particles: &mut Particles,
-        settings: &Settings,
-        h: f32,
-    ) -> Vec<Lost> {
-        self.keep_multipliers();
-        let mut lost = Vec::new();
-        for block in 0..self.lineup.solved / LANES {
-            let [positions, displacements] = self.crew.particles_of(block, settings.instructions);
-            for lane in 0..LANES {
-                let place = (block * LANES + lane) as u32;
-                if !self.lineup.is_written(place) {
-                    continue;
-                }
-                let index = self.lineup.places[place as usize] as usize;
-                let body = &mut bodies[index];
-                let vector = |rows: &[crate::simd::Row; 12], k: usize| {
-                    Vec3::new(rows[3 * k].0[lane], rows[3 * k + 1].0[lane], rows[3 * k + 2].0[lane])
-                };
-                let moved: [[Vec3; 2]; 4] =
-                    std::array::from_fn(|k| [vector(&positions, k), vector(&displacements, k)]);
-                if let Some(particle) = moved.iter().position(|[x, d]| !(x.is_finite() && d.is_finite())) {
-                    lost.push(Lost { body: index, particle: particle as u32 });
-                    continue;
-                }
-                for (i, [position, displacement]) in body.particles.clone().zip(moved) {
-                    particles.position[i] = position;
-                    particles.displacement[i] = displacement;
-                }
-                body.previous_step = h;
-            }
-        }
-        lost.sort_unstable_by_key(|lost| lost.body);
-        lost
-    }
-
     /// What the step has made of the joints, by their index.
     pub(crate) fn finish_joints(&self, settings: &Settings, h: f32) -> Vec<(u32, JointState)> {
         self.joints.finish(settings, h)
-    }
-
-    fn keep_multipliers(&mut self) {
-        for group in self.groups.iter_mut().filter(|group| !group.active.is_empty()) {
-            group.forget_blows();
-            for (batch, header) in group.batches.iter().zip(&group.headers) {
-                let points = &group.points[batch.range()];
-                for (lane, &pair) in batch.pairs.iter().enumerate() {
-                    let detail = self.pairs.details.get_mut(pair as usize);
-                    if let Some(held) = detail.and_then(|detail| detail.held.as_deref_mut()) {
-                        prepare::keep(lane, header, points, held);
-                    }
-                }
-            }
-        }
     }
 }
 
@@ -330,6 +278,7 @@ fn scene<'a>(
         bodies,
         versions,
         place_of: &lineup.place_of,
+        shapes: &crew.shapes,
         poses: &crew.poses,
         velocities: &crew.velocities,
         substeps: timing.substeps,

@@ -62,7 +62,8 @@ pub(super) struct Point {
     pub(super) hold: Hold,
     /// Whether it has let go in this solution.
     pub(super) has_let_go: bool,
-    pub(super) has_slid: bool,
+    /// Where friction points to if it slides, along the tangents: a unit vector.
+    pub(super) slides: Option<[f64; 2]>,
 }
 
 fn column(rows: &Rows3, lane: usize) -> [f64; 3] {
@@ -124,7 +125,7 @@ impl Contact {
                 number(&rows.tangent_impulses[0]),
                 number(&rows.tangent_impulses[1]),
             ];
-            (point.has_let_go, point.has_slid) = (false, false);
+            (point.has_let_go, point.slides) = (false, None);
         }
     }
 
@@ -134,7 +135,7 @@ impl Contact {
         let lane = self.lane.lane;
         for (point, rows) in self.points.iter_mut().zip(groups.rows_mut(&self.lane)) {
             for axis in 0..2 {
-                if point.has_slid {
+                if point.slides.is_some() {
                     point.slid[axis] += std::mem::take(&mut point.drift[axis]);
                 }
                 rows.drift[axis].0[lane] = point.drift[axis] as f32;

@@ -3,8 +3,8 @@
 //! With a guess of the rows that are held, the equations give the multipliers that hold them. If some would pull, the
 //! stack goes towards that solution only until the first of them is zero, lets it go, and solves anew: the impulses never
 //! pull, and what they leave undone gets smaller each time (active sets; Nocedal & Wright, Numerical Optimization, 16.5).
-//! Friction that would leave Coulomb's cone is cut back to it and slides. At rest the first guess, what bore in the last
-//! substep, is the solution.
+//! Friction that would leave Coulomb's cone slides: it is led along with the normal multiplier from one solution to the
+//! next. At rest the first guess, what bore in the last substep, is the solution.
 
 use super::super::contact::Softness;
 use super::super::elimination::Part;
@@ -18,6 +18,15 @@ const MOST_ITERATIONS: usize = 16;
 /// first also if it moves apart by no more than that.
 const NOTHING: f64 = 1e-3;
 
+/// Of that share, what is none for a point that bears.
+const SETTLED: f64 = 0.01;
+
+/// Friction is found once it does not change by more than this share of the normal multiplier.
+const FRICTION: f64 = 1e-4;
+
+/// Faster than what so many substeps of gravity's friction stop slides from the beginning.
+const FAST: f64 = 2.0;
+
 /// How far beyond the cone friction has to be to slide.
 const CONE: f64 = 1.0001;
 
@@ -29,6 +38,10 @@ impl Stack {
         for contact in &mut self.contacts {
             contact.aim([bias, drift_rate].map(f64::from), f64::from(limit));
         }
+        if self.is_settled(NOTHING * aim.kick) {
+            return true;
+        }
+        self.let_slide(FAST * aim.kick);
         for iteration in 0..MOST_ITERATIONS {
             let slack = if iteration == 0 { NOTHING } else { -0.1 * NOTHING };
             self.guess(slack * aim.kick);
@@ -42,6 +55,32 @@ impl Stack {
         false
     }
 
+    /// Whether impulses are as they should be already: what bears leads to its targets, and the rest does not come near.
+    fn is_settled(&self, slack: f64) -> bool {
+        self.contacts.iter().all(|contact| {
+            contact.points.iter().all(|point| {
+                let off = |k: usize| contact.speed(&point.lines[k], &self.velocities) - point.targets[k];
+                match point.multipliers[0] > 0.0 {
+                    true => (0..3).all(|k| off(k).abs() <= SETTLED * slack),
+                    false => off(0) >= -slack,
+                }
+            })
+        })
+    }
+
+    /// Has friction oppose the motion where it is too fast to be stopped in a substep.
+    fn let_slide(&mut self, speed: f64) {
+        for contact in &mut self.contacts {
+            for k in 0..contact.points.len() {
+                let [p, q] = [1, 2].map(|j| contact.speed(&contact.points[k].lines[j], &self.velocities));
+                let slip = (p * p + q * q).sqrt();
+                if slip > speed * contact.friction {
+                    contact.points[k].slides = Some([-p / slip, -q / slip]);
+                }
+            }
+        }
+    }
+
     /// Holds what bears, and what would go into each other.
     fn guess(&mut self, slack: f64) {
         for contact in &mut self.contacts {
@@ -49,7 +88,7 @@ impl Stack {
                 let opening = contact.speed(&contact.points[k].lines[0], &self.velocities);
                 let point = &mut contact.points[k];
                 let bears = point.multipliers[0] > 0.0 || opening - point.targets[0] <= slack;
-                point.hold = match (bears && !point.has_let_go, point.has_slid) {
+                point.hold = match (bears && !point.has_let_go, point.slides.is_some()) {
                     (false, _) => Hold::Off,
                     (true, true) => Hold::Slides,
                     (true, false) => Hold::Sticks,
@@ -113,7 +152,8 @@ impl Stack {
                 let lets_go = point.multipliers[0] + gain[0] < 0.0
                     && reached[0] <= 1e-6 * point.multipliers[0].max(gain[0].abs());
                 let kept = point.settle(reached, lets_go, friction);
-                is_done &= !(lets_go || point.has_slid && point.hold == Hold::Sticks);
+                let cut = (kept[1] - reached[1]).abs().max((kept[2] - reached[2]).abs());
+                is_done &= !lets_go && cut <= FRICTION * kept[0];
                 for (k, (kept, reached)) in kept.into_iter().zip(reached).enumerate() {
                     if kept == reached {
                         continue;
@@ -156,16 +196,14 @@ impl Point {
         self.lines.iter().zip(self.targets).take(count)
     }
 
-    /// What is left of multipliers: none of what has let go, and friction within its cone.
+    /// What is left of multipliers: none of what has let go, and friction within its cone; on its edge once it slides.
     fn settle(&mut self, [normal, p, q]: [f64; 3], lets_go: bool, friction: f64) -> [f64; 3] {
         self.has_let_go |= lets_go;
         let normal = if lets_go { 0.0 } else { normal.max(0.0) };
         let (size, limit) = ((p * p + q * q).sqrt(), friction * normal);
-        if size <= limit * CONE {
-            return [normal, p, q];
+        if self.slides.is_none() && size > limit * CONE {
+            self.slides = Some([p / size, q / size]);
         }
-        self.has_slid = true;
-        let scale = limit / size;
-        [normal, p * scale, q * scale]
+        self.slides.map_or([normal, p, q], |[along_p, along_q]| [normal, along_p * limit, along_q * limit])
     }
 }

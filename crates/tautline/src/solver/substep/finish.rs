@@ -1,0 +1,148 @@
+//! The end of a step: particles are written, and multipliers kept for the next step.
+//!
+//! What is written to is in the order of the bodies and of the pairs, what is read in that of places and batches: so
+//! runs of bodies, and of pairs, are done side by side, and each looks up where its own is.
+
+use glam::Vec3;
+
+use super::group::Group;
+use super::lineup::Lineup;
+use super::pairs::Detail;
+use super::{Lost, RigidSolver, prepare};
+use crate::body::Body;
+use crate::parallel;
+use crate::particles::Particles;
+use crate::settings::Settings;
+use crate::simd::{LANES, Row};
+
+/// From so many bodies or pairs on it pays to do them side by side, …
+const WORTHWHILE: usize = 1024;
+/// … so many at a time.
+const CHUNK: usize = 256;
+/// Blocks that are written at a time.
+const BLOCKS: usize = 32;
+
+/// The particles of eight bodies: positions and displacements.
+type Written = [[Row; 12]; 2];
+
+/// Bodies that follow each other, with their particles.
+struct Run<'a> {
+    /// The number of the first body, and of its first particle.
+    first: (usize, usize),
+    bodies: &'a mut [Body],
+    positions: &'a mut [Vec3],
+    displacements: &'a mut [Vec3],
+    lost: Vec<Lost>,
+}
+
+/// Where the rows of a pair are.
+#[derive(Clone, Copy)]
+struct Slot {
+    group: u32,
+    batch: u32,
+    lane: u32,
+}
+
+/// Of a pair without rows.
+const NOWHERE: Slot = Slot { group: u32::MAX, batch: 0, lane: 0 };
+
+impl RigidSolver {
+    /// Writes the particles, and keeps the multipliers for the next step. A body that is not finite any more stays
+    /// where it was, and is told of.
+    pub(crate) fn finish(
+        &mut self,
+        bodies: &mut [Body],
+        particles: &mut Particles,
+        settings: &Settings,
+        h: f32,
+    ) -> Vec<Lost> {
+        self.keep_multipliers();
+        let worthwhile = parallel::is_worthwhile(bodies.len(), WORTHWHILE);
+        let mut written = vec![[[Row::ZERO; 12]; 2]; self.lineup.solved / LANES];
+        let mut tasks: Vec<_> = (0..).step_by(BLOCKS).zip(written.chunks_mut(BLOCKS)).collect();
+        parallel::for_each(&mut tasks, worthwhile, |(first, written)| {
+            for (block, written) in (*first..).zip(written.iter_mut()) {
+                *written = self.crew.particles_of(block, settings.instructions);
+            }
+        });
+        let mut runs = runs(bodies, particles);
+        parallel::for_each(&mut runs, worthwhile, |run| run.write(&self.lineup, &written, h));
+        runs.into_iter().flat_map(|run| run.lost).collect()
+    }
+
+    fn keep_multipliers(&mut self) {
+        let mut slots = vec![NOWHERE; self.pairs.details.len()];
+        for (number, group) in (0..).zip(self.groups.iter_mut()).filter(|(_, group)| !group.active.is_empty())
+        {
+            group.forget_blows();
+            for (batch, rows) in (0..).zip(&group.batches) {
+                for (lane, &pair) in (0..).zip(&rows.pairs) {
+                    if let Some(slot) = slots.get_mut(pair as usize) {
+                        *slot = Slot { group: number, batch, lane };
+                    }
+                }
+            }
+        }
+        let groups: Vec<&Group> = self.groups.iter_mut().map(|group| &*group).collect();
+        let worthwhile = parallel::is_worthwhile(slots.len(), WORTHWHILE);
+        let mut chunks: Vec<_> = slots.chunks(CHUNK).zip(self.pairs.details.chunks_mut(CHUNK)).collect();
+        parallel::for_each(&mut chunks, worthwhile, |(slots, details)| {
+            for (slot, detail) in slots.iter().zip(details.iter_mut()) {
+                keep(&groups, *slot, detail);
+            }
+        });
+    }
+}
+
+fn keep(groups: &[&Group], slot: Slot, detail: &mut Detail) {
+    let (Some(group), Some(held)) = (groups.get(slot.group as usize), &mut detail.held) else { return };
+    let batch = slot.batch as usize;
+    let points = &group.points[group.batches[batch].range()];
+    prepare::keep(slot.lane as usize, &group.headers[batch], points, held);
+}
+
+/// All bodies in runs. Their particles follow each other as they do.
+fn runs<'a>(bodies: &'a mut [Body], particles: &'a mut Particles) -> Vec<Run<'a>> {
+    let (mut positions, mut displacements) = (&mut particles.position[..], &mut particles.displacement[..]);
+    let (mut start, mut runs) = (0, Vec::with_capacity(bodies.len().div_ceil(CHUNK)));
+    for (number, bodies) in bodies.chunks_mut(CHUNK).enumerate() {
+        let count = bodies.iter().map(|body| body.particles.len()).sum();
+        let (own_positions, other_positions) = positions.split_at_mut(count);
+        let (own_displacements, other_displacements) = displacements.split_at_mut(count);
+        (positions, displacements) = (other_positions, other_displacements);
+        runs.push(Run {
+            first: (number * CHUNK, start),
+            bodies,
+            positions: own_positions,
+            displacements: own_displacements,
+            lost: Vec::new(),
+        });
+        start += count;
+    }
+    runs
+}
+
+impl Run<'_> {
+    fn write(&mut self, lineup: &Lineup, written: &[Written], h: f32) {
+        let (first_body, first_particle) = self.first;
+        for (index, body) in (first_body..).zip(self.bodies.iter_mut()) {
+            let Some(place) = lineup.place_of_motion(index) else { continue };
+            let ([positions, displacements], lane) = (&written[place / LANES], place % LANES);
+            let vector = |rows: &[Row; 12], k: usize| {
+                Vec3::new(rows[3 * k].0[lane], rows[3 * k + 1].0[lane], rows[3 * k + 2].0[lane])
+            };
+            let moved: [[Vec3; 2]; 4] =
+                std::array::from_fn(|k| [vector(positions, k), vector(displacements, k)]);
+            if let Some(particle) = moved.iter().position(|[x, d]| !(x.is_finite() && d.is_finite())) {
+                self.lost.push(Lost { body: index, particle: particle as u32 });
+                continue;
+            }
+            let start = body.particles.start - first_particle;
+            for (i, [position, displacement]) in (start..).zip(moved) {
+                self.positions[i] = position;
+                self.displacements[i] = displacement;
+            }
+            body.previous_step = h;
+        }
+    }
+}
