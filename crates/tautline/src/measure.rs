@@ -20,7 +20,7 @@ pub struct Strain {
 }
 
 /// How deep bodies are in each other: solids in solids, solids and particles in half-spaces. Pairs that cannot collide,
-/// by their groups or because neither is moved by contacts, do not count.
+/// by their groups, since a joint connects them or because neither is moved by contacts, do not count.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Penetration {
     /// Deepest, in m.
@@ -103,13 +103,20 @@ impl World {
     }
 
     fn solid_depths(&self, depths: &mut Vec<f32>) {
-        let bodies = self.bodies.iter().filter(|body| solid_piece_count(body) > 0);
-        let solids: Vec<Solid<'_>> = bodies.map(|body| Solid::of(body, &self.particles.position)).collect();
+        let bodies = self.bodies.iter().enumerate().filter(|(_, body)| solid_piece_count(body) > 0);
+        let (indices, bodies): (Vec<u32>, Vec<&Body>) = bodies.map(|(i, body)| (i as u32, body)).unzip();
+        let positions = &self.particles.position;
+        let solids: Vec<Solid<'_>> = bodies.into_iter().map(|body| Solid::of(body, positions)).collect();
         let boxes: Vec<Aabb> = solids.iter().map(|solid| solid.bounds).collect();
         let movable: Vec<bool> = solids.iter().map(|solid| is_dynamic(solid.body)).collect();
         let (mut search, mut pairs) = (PairSearch::default(), Vec::new());
-        let collide =
-            |a: u32, b: u32| groups(solids[a as usize].body).collide_with(groups(solids[b as usize].body));
+        let connected = self.joints.separated();
+        let collide = |a: u32, b: u32| {
+            // Indices grow with the solids.
+            let pair = [a.min(b), a.max(b)].map(|solid| indices[solid as usize]);
+            groups(solids[a as usize].body).collide_with(groups(solids[b as usize].body))
+                && connected.binary_search(&pair).is_err()
+        };
         overlapping_pairs(&boxes, &movable, collide, self.settings.instructions, &mut search, &mut pairs);
         depths.extend(pairs.iter().map(|&(a, b)| solids[a as usize].depth_in(&solids[b as usize])));
     }

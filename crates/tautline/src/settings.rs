@@ -26,7 +26,9 @@ pub struct Settings {
     /// How many features a pair of touching trusses is separated at in a substep, one after another, each the deepest
     /// then, 1 to 16. The paper's method is 1; a cube rests on a cube at 4.
     pub features_per_pair: u32,
-    /// The greatest speed at which bodies that have overlapped for longer than a substep are moved apart, in m/s;
+    /// The greatest speed at which bodies that have overlapped for longer than a substep are moved apart along the
+    /// normal of a contact, and joints draw together what is apart, in m/s. What is pushed by several others at once,
+    /// or squeezed out between them, can get faster: a hundred boxes at one point fly apart at 70 m/s.
     /// `None` = at once, which Verlet's integrator turns into a velocity of depth over substep, and for rigid bodies of
     /// four particles as fast as their soft contacts do.
     pub separation_speed: Option<f32>,
@@ -37,7 +39,8 @@ pub struct Settings {
     pub damping: f32,
     /// How pairs of trusses, cloth and rope that may touch are found.
     pub broad_phase: BroadPhase,
-    /// When resting trusses, cloth and rope are put to sleep; `None` = never.
+    /// When resting bodies are put to sleep; `None` = never. Rigid bodies that touch or are joined sleep and wake
+    /// together.
     pub sleep: Option<Sleep>,
     /// Which instructions the solver of rigid bodies of four particles uses. The result is the same.
     pub instructions: Instructions,

@@ -1,18 +1,19 @@
 //! Bodies of a document to bodies of a world.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::f32::consts::PI;
 
 use tautline::mesh::TriMesh;
 use tautline::{BodyHandle, Error, Quat, Vec3, World};
 
+use super::joint::joint;
 use super::rigid::{rigid_body, surface, truss_body};
 use super::shape::{Make, Solids, triangles, unread};
 use super::wall;
 use super::{Look, Part};
 use crate::document::{
-    Body, Cloth, Color, HalfSpace, Motion, Pin, Rigid, Room, Rope, RopeEnd, Rotation, SheetPlace, Surface,
-    Thread,
+    Body, BodyRef, Cloth, Color, HalfSpace, Joint, Motion, Pin, Rigid, Room, Rope, RopeEnd, Rotation,
+    SheetPlace, Surface, Thread,
 };
 use crate::render::palette;
 
@@ -36,6 +37,8 @@ pub(super) struct Builder {
     world: World,
     parts: Vec<Part>,
     solids: Solids,
+    /// The rigid bodies by all that the document can call them.
+    rigid: BTreeMap<BodyRef, BodyHandle>,
     names: BTreeSet<String>,
     /// How many bodies have a colour from the palette.
     colored: usize,
@@ -43,15 +46,21 @@ pub(super) struct Builder {
 
 impl Builder {
     pub(super) fn new(world: World, has_trusses: bool) -> Self {
-        let (parts, solids, names) = (Vec::new(), Solids::new(has_trusses), BTreeSet::new());
-        Self { world, parts, solids, names, colored: 0 }
+        Self {
+            world,
+            parts: Vec::new(),
+            solids: Solids::new(has_trusses),
+            rigid: BTreeMap::new(),
+            names: BTreeSet::new(),
+            colored: 0,
+        }
     }
 
     /// Adds the document's body number `index`.
     pub(super) fn add(&mut self, index: usize, body: &Body) -> Result<(), Refusal> {
         let name = body.name().map_or_else(|| format!("{} {index}", body.kind()), str::to_owned);
         match body {
-            Body::Rigid(rigid) => self.add_rigid(name, rigid),
+            Body::Rigid(rigid) => self.add_rigid(index, name, rigid),
             Body::Cloth(cloth) => self.add_cloth(name, cloth),
             Body::Rope(rope) => self.add_rope(name, rope),
             Body::HalfSpace(half_space) => self.add_half_space(name, half_space),
@@ -59,7 +68,7 @@ impl Builder {
         }
     }
 
-    fn add_rigid(&mut self, name: String, rigid: &Rigid) -> Result<(), Refusal> {
+    fn add_rigid(&mut self, index: usize, name: String, rigid: &Rigid) -> Result<(), Refusal> {
         let solid = self.solids.get(&rigid.shape).map_err(|error| Refusal { field: ".shape", error })?;
         let body = match solid.make {
             Make::Rigid(shape) => self.world.add(rigid_body(rigid, &shape)),
@@ -67,6 +76,10 @@ impl Builder {
                 self.world.add(truss_body(rigid, &truss, origin, volume))
             }
         }?;
+        self.rigid.insert(BodyRef::Index(index as u32), body);
+        if let Some(name) = &rigid.name {
+            self.rigid.insert(BodyRef::Name(name.clone()), body);
+        }
         let color = match rigid.color {
             None if rigid.motion() == Motion::Fixed => GREY,
             given => self.color(given),
@@ -161,6 +174,20 @@ impl Builder {
             let color = room.color.map_or(GREY, |color| color.0);
             self.push(format!("{name} {}", side.name), color, body, Look::Wall(side.mesh));
         }
+        Ok(())
+    }
+
+    /// Adds a joint between bodies that have been added.
+    pub(super) fn join(&mut self, document: &Joint) -> Result<(), Error> {
+        let find = |field: &str, body: &BodyRef| {
+            let problem = "it is no rigid body of the scene".to_owned();
+            let unknown = Error::Invalid { field: field.to_owned(), problem };
+            self.rigid.get(body).copied().ok_or(unknown)
+        };
+        let body = find("body", &document.body)?;
+        let base = document.base.as_ref().map(|base| find("base", base)).transpose()?;
+        let center = self.world.body(body)?.center_of_mass();
+        self.world.add_joint(joint(document, body, base, center))?;
         Ok(())
     }
 

@@ -1,6 +1,7 @@
 //! Documents to worlds.
 
 mod body;
+mod joint;
 mod rigid;
 mod settings;
 mod shape;
@@ -72,8 +73,8 @@ impl Scene {
     /// Makes the world that the document describes. Bodies of equal shape share it.
     ///
     /// # Errors
-    /// [`Error::Invalid`] with every problem of the document's values or, if these are right, every body that
-    /// the engine refuses, such as `bodies[3].rigid.shape: mesh: edge (0, 1) is open: …`. Mesh files must have
+    /// [`Error::Invalid`] with every problem of the document's values or, if these are right, every body or
+    /// joint that the engine refuses, such as `bodies[3].rigid.shape: mesh: edge (0, 1) is open: …`. Mesh files must have
     /// been read, which [`load`](crate::load) does.
     pub fn build(&self) -> Result<BuiltScene, Error> {
         self.check()?;
@@ -86,6 +87,13 @@ impl Scene {
             }
             if problems.len() == limits::PROBLEMS {
                 break;
+            }
+        }
+        // Joints hold bodies: they can be added where all of those could.
+        let joints = if problems.is_empty() { self.joints.as_slice() } else { &[] };
+        for (i, joint) in joints.iter().enumerate() {
+            if let Err(error) = builder.join(joint) {
+                problems.push(Problem { path: format!("joints[{i}]"), message: error.to_string() });
             }
         }
         if !problems.is_empty() {

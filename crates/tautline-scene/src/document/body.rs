@@ -1,12 +1,8 @@
 //! The bodies of a scene.
 
-use std::fmt;
-
 use schemars::JsonSchema;
-use serde::de::{Deserializer, Error, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
 
-use super::limits;
 use super::rigid::Rigid;
 use super::shape::{Surface, Thread};
 use super::value::{Color, Pin, RopeEnd, Rotation, SheetPlace, Weight};
@@ -271,30 +267,4 @@ impl Body {
             Self::HalfSpace(_) | Self::Room(_) => 0,
         }
     }
-}
-
-/// Reads a list of bodies and stops at the first one too many, so that a long list takes no memory.
-pub(super) fn limited<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Body>, D::Error> {
-    struct Bodies;
-
-    impl<'de> Visitor<'de> for Bodies {
-        type Value = Vec<Body>;
-
-        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-            write!(f, "a list of at most {} bodies", limits::BODIES)
-        }
-
-        fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Self::Value, A::Error> {
-            let mut bodies = Vec::new();
-            while let Some(body) = list.next_element()? {
-                if bodies.len() == limits::BODIES {
-                    return Err(A::Error::custom(format!("there are more than {} bodies", limits::BODIES)));
-                }
-                bodies.push(body);
-            }
-            Ok(bodies)
-        }
-    }
-
-    deserializer.deserialize_seq(Bodies)
 }

@@ -50,6 +50,15 @@ pub(super) const ANGLE: Rule =
 /// An opening angle, in degrees.
 pub(super) const OPENING: Rule =
     Rule { holds: |x| x > 0.0 && x < 180.0, expected: "a number of degrees between 0 and 180" };
+/// A compliance, or the strength of a motor.
+pub(super) const UP_TO_HUGE: Rule =
+    Rule { holds: |x| (0.0..=1e20).contains(&x), expected: "a number from 0 to 1e20" };
+/// A turn to either side, in degrees.
+pub(super) const HALF_TURN: Rule =
+    Rule { holds: |x| x.abs() <= 180.0, expected: "a number of degrees from -180 to 180" };
+/// A frequency, in Hz.
+pub(super) const FREQUENCY: Rule =
+    Rule { holds: |x| (1e-6..=1e6).contains(&x), expected: "a number from 1e-6 to 1000000" };
 /// Any finite number.
 pub(super) const FINITE: Rule = Rule { holds: f32::is_finite, expected: "a finite number" };
 
@@ -118,6 +127,15 @@ impl Checker {
         for (k, &component) in value.iter().enumerate() {
             self.number(format_args!("{field}[{k}]"), component, rule);
         }
+    }
+
+    /// A least and a greatest number, if there are any.
+    pub(super) fn optional_range(&mut self, field: &str, range: Option<[f32; 2]>, rule: Rule) {
+        let Some([least, most]) = range else { return };
+        self.vector(field, &[least, most], rule);
+        self.require(least <= most || least.is_nan() || most.is_nan(), format_args!("{field}[1]"), || {
+            format!("{most} is less than {field}[0], {least}")
+        });
     }
 
     /// A vector that names a direction: finite, not zero, and not so short or long that its length is.

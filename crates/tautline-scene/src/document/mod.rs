@@ -6,7 +6,9 @@
 
 mod body;
 mod check;
+mod joint;
 pub mod limits;
+mod list;
 mod nesting;
 mod parse;
 mod rigid;
@@ -19,16 +21,17 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 
 pub use body::{Body, Cloth, HalfSpace, Room, Rope};
+pub use joint::{Joint, JointKind, Motor, Spring};
 pub use parse::{Format, parse};
 pub use rigid::{Damping, Groups, Motion, Rigid};
 pub use settings::{BroadPhase, Ordering, Settings, Sleep, Solver, SquareRoot};
 pub use shape::{MeshFile, MeshSource, PartOfCompound, Shape, Surface, Thread};
-pub use value::{AxisAngle, Color, Pin, RopeEnd, Rotation, SheetPlace, Weight};
+pub use value::{AxisAngle, BodyRef, Color, Pin, RopeEnd, Rotation, SheetPlace, Weight};
 
 /// The version of the format that this crate reads and writes.
 pub const VERSION: u32 = 1;
 
-/// A scene: bodies, how long they move, and how they are looked at.
+/// A scene: bodies, what holds them together, how long they move, and how they are looked at.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
@@ -58,8 +61,11 @@ pub struct Scene {
     #[serde(default)]
     pub settings: Settings,
     /// What there is in the scene.
-    #[serde(default, deserialize_with = "body::limited")]
+    #[serde(default, deserialize_with = "list::bodies")]
     pub bodies: Vec<Body>,
+    /// What holds rigid bodies together.
+    #[serde(default, deserialize_with = "list::joints", skip_serializing_if = "Vec::is_empty")]
+    pub joints: Vec<Joint>,
     /// Where it is seen from; a view of everything if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub camera: Option<Camera>,
@@ -81,6 +87,7 @@ impl Default for Scene {
             record_every: one(),
             settings: Settings::default(),
             bodies: Vec::new(),
+            joints: Vec::new(),
             camera: None,
             bounds: None,
         }

@@ -1,7 +1,6 @@
 //! Values that a document can write in more than one way: rotations, pins and colours.
 
 use std::fmt;
-use std::marker::PhantomData;
 
 use schemars::JsonSchema;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
@@ -116,36 +115,58 @@ pub enum RopeEnd {
     Last,
 }
 
+/// A body of the scene: its index in `bodies` from 0, or its name.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum BodyRef {
+    /// By its index.
+    Index(u32),
+    /// By its name.
+    Name(String),
+}
+
+impl<'de> Deserialize<'de> for BodyRef {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(IndexOrName("the index or the name of a body")).map(|key| match key {
+            Ok(index) => Self::Index(index),
+            Err(name) => Self::Name(name),
+        })
+    }
+}
+
 impl<'de, Place: Deserialize<'de>> Deserialize<'de> for Pin<Place> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct IndexOrPlace<Place>(PhantomData<Place>);
-
-        impl<'de, Place: Deserialize<'de>> Visitor<'de> for IndexOrPlace<Place> {
-            type Value = Pin<Place>;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("the index of a particle or the name of a place")
-            }
-
-            fn visit_u64<E: Error>(self, index: u64) -> Result<Self::Value, E> {
-                let index =
-                    u32::try_from(index).map_err(|_| E::invalid_value(Unexpected::Unsigned(index), &self))?;
-                Ok(Pin::Index(index))
-            }
-
-            // TOML reads every integer as a signed one.
-            fn visit_i64<E: Error>(self, index: i64) -> Result<Self::Value, E> {
-                let index =
-                    u32::try_from(index).map_err(|_| E::invalid_value(Unexpected::Signed(index), &self))?;
-                Ok(Pin::Index(index))
-            }
-
-            fn visit_str<E: Error>(self, name: &str) -> Result<Self::Value, E> {
-                Place::deserialize(name.into_deserializer()).map(Pin::Place)
-            }
+        match deserializer.deserialize_any(IndexOrName("the index of a particle or the name of a place"))? {
+            Ok(index) => Ok(Pin::Index(index)),
+            Err(name) => Place::deserialize(name.into_deserializer()).map(Pin::Place),
         }
+    }
+}
 
-        deserializer.deserialize_any(IndexOrPlace(PhantomData))
+/// Reads an index, or a name; says what is expected.
+struct IndexOrName(&'static str);
+
+impl Visitor<'_> for IndexOrName {
+    /// The index, or else the name.
+    type Value = Result<u32, String>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.0)
+    }
+
+    fn visit_u64<E: Error>(self, index: u64) -> Result<Self::Value, E> {
+        let index = u32::try_from(index).map_err(|_| E::invalid_value(Unexpected::Unsigned(index), &self))?;
+        Ok(Ok(index))
+    }
+
+    // TOML reads every integer as a signed one.
+    fn visit_i64<E: Error>(self, index: i64) -> Result<Self::Value, E> {
+        let index = u32::try_from(index).map_err(|_| E::invalid_value(Unexpected::Signed(index), &self))?;
+        Ok(Ok(index))
+    }
+
+    fn visit_str<E: Error>(self, name: &str) -> Result<Self::Value, E> {
+        Ok(Err(name.to_owned()))
     }
 }
 

@@ -2,9 +2,11 @@
 //! a function from parameters to a document, so that every scene can be written out, changed and read again.
 
 mod balance;
+mod chain;
 mod cloth;
 mod impact;
 mod parameter;
+mod ragdoll;
 mod rigid;
 mod rope;
 mod stacks;
@@ -51,14 +53,17 @@ pub fn scenes() -> &'static [NamedScene] {
         cloth::CLOTH_ON_ROPE,
         stacks::TOWER,
         stacks::PYRAMID,
+        stacks::MASS_RATIO,
         balance::ARCH,
         balance::CARD_HOUSE,
         balance::DOMINOES,
         impact::MIXED_PILE,
+        chain::CHAIN,
+        ragdoll::RAGDOLL,
         cloth::HUNG_CLOTH,
         cloth::CURTAIN,
         rope::CATENARY,
-        rope::CHAIN,
+        rope::WHIP,
         together::HAMMOCK,
     ]
 }

@@ -31,14 +31,14 @@ fn catenary(p: &Parameters) -> Scene {
     Scene { seconds: 6.0, record_every: 2, settings, bodies, ..Scene::default() }
 }
 
-pub(super) const CHAIN: NamedScene = NamedScene {
-    name: "chain",
+pub(super) const WHIP: NamedScene = NamedScene {
+    name: "whip",
     description: "A rope with a heavy end is let go level and swings like a whip.",
     parameters: &[Parameter::count("links", "segments of the rope", 40, (1, 500))],
-    document: chain,
+    document: whip,
 };
 
-fn chain(p: &Parameters) -> Scene {
+fn whip(p: &Parameters) -> Scene {
     let rope = Rope {
         path: Thread::Line { from: [0.0, 2.5, 0.0], to: [2.0, 2.5, 0.0], segments: p.count("links") },
         pins: vec![Pin::Place(RopeEnd::First)],

@@ -62,6 +62,38 @@ pub(super) fn turned(rotation: Quat, vector: DVec3) -> DVec3 {
     vector + twice * w + axis.cross(twice)
 }
 
+/// When a function of time changes its sign.
+#[derive(Default)]
+pub(super) struct Crossings {
+    last: Option<[f64; 2]>,
+    times: Vec<f64>,
+}
+
+impl Crossings {
+    pub(super) fn add(&mut self, time: f64, value: f64) {
+        if let Some([last_time, last]) = self.last
+            && (last < 0.0) != (value < 0.0)
+        {
+            self.times.push(last_time + (time - last_time) * last / (last - value));
+        }
+        self.last = Some([time, value]);
+    }
+
+    /// Twice the mean interval; not a number without any.
+    pub(super) fn period(&self) -> f64 {
+        let intervals = self.intervals();
+        2.0 * intervals.iter().sum::<f64>() / intervals.len() as f64
+    }
+
+    pub(super) fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    pub(super) fn intervals(&self) -> Vec<f64> {
+        self.times.windows(2).map(|pair| pair[1] - pair[0]).collect()
+    }
+}
+
 /// Where a condition that holds from some value on begins to hold, by halving [low, high] until it is `share` of it wide.
 /// If it holds nowhere or everywhere, an end.
 pub(super) fn threshold(

@@ -19,6 +19,7 @@ mod room;
 mod slope;
 mod spin;
 mod stack;
+mod swing;
 
 use rayon::prelude::*;
 use tautline::Error;
@@ -34,6 +35,7 @@ pub fn cases() -> Vec<Case> {
     cases.extend(slope::cases());
     cases.extend(roll::cases());
     cases.extend(stack::cases());
+    cases.extend(swing::cases());
     cases.extend(spin::cases());
     cases.extend(bullet::cases());
     cases.extend(room::cases());

@@ -3,7 +3,7 @@
 use tautline::{BodyHandle, DVec3, Error, RigidBody, Vec3, World};
 
 use super::case::{Case, Conditions, Part, Trial};
-use super::lab::{DT, cuboid, pose, steps, turned};
+use super::lab::{Crossings, DT, cuboid, pose, steps, turned};
 
 pub(super) fn cases() -> Vec<Case> {
     vec![tumbling(), flipping()]
@@ -132,28 +132,6 @@ fn flipping() -> Case {
     }
 }
 
-/// When a function of time changes its sign.
-#[derive(Default)]
-struct Crossings {
-    last: Option<[f64; 2]>,
-    times: Vec<f64>,
-}
-
-impl Crossings {
-    fn add(&mut self, time: f64, value: f64) {
-        if let Some([last_time, last]) = self.last
-            && (last < 0.0) != (value < 0.0)
-        {
-            self.times.push(last_time + (time - last_time) * last / (last - value));
-        }
-        self.last = Some([time, value]);
-    }
-
-    fn intervals(&self) -> Vec<f64> {
-        self.times.windows(2).map(|pair| pair[1] - pair[0]).collect()
-    }
-}
-
 /// Time between two flips of a body that turns about its middle axis, in s: I ω' = I ω × ω.
 fn flip_interval(inertia: DVec3, start: DVec3) -> f64 {
     const H: f64 = 1e-4;
@@ -161,7 +139,7 @@ fn flip_interval(inertia: DVec3, start: DVec3) -> f64 {
     let mut crossings = Crossings::default();
     let mut w = start;
     let mut step = 0;
-    while crossings.times.len() < 2 && step < 1_000_000 {
+    while crossings.times().len() < 2 && step < 1_000_000 {
         let k1 = slope(w);
         let k2 = slope(w + k1 * (0.5 * H));
         let k3 = slope(w + k2 * (0.5 * H));

@@ -94,6 +94,76 @@ fn contradictions_stay_in_bounds() {
     }
 }
 
+/// A body welded to two places that are metres apart: it stays between them, whole and at a speed that is bounded.
+#[test]
+fn places_that_are_metres_apart_do_not_tear_at_a_body() {
+    for (apart, mass) in [(0.5, 1.0), (5.0, 1.0), (5.0, 1e3), (100.0, 1e-2)] {
+        let mut world = World::new(sleepless()).unwrap();
+        let body = add(&mut world, Vec3::new(0.2, 0.1, 0.3), Vec3::ZERO, mass);
+        for side in [-apart, apart] {
+            let point = Vec3::new(side, 0.3 * side, 0.0);
+            world.add_joint(FixedJoint::new(body, None).anchors(Vec3::splat(0.1), point)).unwrap();
+        }
+        // One that would have it turned over.
+        let turned = world.add(RigidBody::new(&cuboid(0.1, 0.1, 0.1)).mass(mass).position(Vec3::Z)).unwrap();
+        world.add_joint(FixedJoint::new(turned, body)).unwrap();
+        world.add_joint(HingeJoint::new(turned, None).anchors(Vec3::Z, Vec3::NEG_Z).axis(Vec3::X)).unwrap();
+        let (mut fastest, mut furthest) = (0.0f32, 0.0f32);
+        for _ in 0..300 {
+            run(&mut world, 1);
+            for body in [body, turned] {
+                fastest = fastest.max(world.body(body).unwrap().velocity().length());
+                furthest = furthest.max(center(&world, body).length());
+            }
+        }
+        println!("{apart} m, {mass} kg: {fastest} m/s, {furthest} m away");
+        // Settings::separation_speed is 3 m/s.
+        assert!(
+            fastest < 6.0 && furthest < apart + 2.0,
+            "{apart} m, {mass} kg: {fastest} m/s, {furthest} m away"
+        );
+    }
+}
+
+/// A ball on a slack chain of light links snaps it tight: that takes energy and never gives any.
+#[test]
+fn a_chain_that_snaps_tight_gains_nothing() {
+    for (links, ratio, kink) in [(24, 200.0, 0.3), (10, 1000.0, 0.6), (40, 100.0, 0.3)] {
+        let mut world = World::new(sleepless()).unwrap();
+        let pitch = 4.0 / links as f32;
+        let link = cuboid(pitch / 2.0, pitch / 4.0, pitch / 4.0);
+        let (mut base, mut place) = (None, Vec3::ZERO);
+        for k in 0..links {
+            // It lies folded, in a zigzag that is not quite regular.
+            let angle = kink * if k % 2 == 0 { 1.0 } else { -1.0 } + 0.1 * (k % 5) as f32;
+            let rotation = Quat::from_rotation_z(angle) * Quat::from_rotation_y(0.3 * (k % 3) as f32);
+            let along = rotation * Vec3::X * pitch;
+            let body = RigidBody::new(&link).mass(1.0).position(place + along * 0.5).rotation(rotation);
+            let body = world.add(body).unwrap();
+            world.add_joint(BallJoint::new(body, base).anchor(place)).unwrap();
+            base = Some(body);
+            place += along;
+        }
+        let ball = add(&mut world, Vec3::splat(0.3), place + Vec3::X * 0.35, ratio);
+        world.add_joint(BallJoint::new(ball, base).anchor(place)).unwrap();
+        let energy = |world: &World| world.kinetic_energy() + world.potential_energy();
+        let start = energy(&world);
+        let scale = f64::from(ratio) * 9.81 * 4.0;
+        let (mut most, mut widest) = (0.0f64, 0.0f32);
+        for _ in 0..600 {
+            run(&mut world, 1);
+            most = most.max((energy(&world) - start) / scale);
+            for joint in world.joints() {
+                let [on_body, on_base] = world.joint(joint).unwrap().anchors();
+                widest = widest.max(on_body.distance(on_base));
+            }
+        }
+        println!("{links} links, 1 : {ratio}: {most:.4} of the energy gained, apart by {widest:.1e} m");
+        // What loads have drawn apart is drawn together again, which lifts them.
+        assert!(most < 0.1 && widest < 0.05, "{links} links, 1 : {ratio}: {most}, {widest} m");
+    }
+}
+
 /// Limp chains with cones and hinges over a floor, and what they are made of.
 fn limp_chains() -> (World, Vec<BodyHandle>) {
     let mut world = World::new(sleepless()).unwrap();

@@ -2,6 +2,7 @@
 
 mod bounce;
 mod control;
+mod faults;
 mod forces;
 mod friction;
 mod measures;

@@ -1,6 +1,7 @@
 //! What is no shape is refused by name.
 
-use tautline::{Error, Quat, Shape, Vec3};
+use tautline::mesh::{TriMesh, primitives};
+use tautline::{Error, MeshDefect, Quat, Shape, Vec3};
 
 const NUMBERS: [f32; 7] = [0.0, -1.0, f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e30, 1e-30];
 
@@ -74,4 +75,56 @@ fn compounds_that_are_mostly_nothing() {
     let dust = Shape::sphere(1e-3).unwrap();
     let parts = [(&dust, Vec3::ZERO, Quat::IDENTITY), (&dust, Vec3::X * 1e6, Quat::IDENTITY)];
     assert_eq!(field(Shape::compound(&parts)), "parts");
+}
+
+/// Each defect of a mesh, by the same name for a solid and for ground.
+#[test]
+fn meshes_with_defects() {
+    let tetrahedron = primitives::tetrahedron(1.0).unwrap();
+    let with = |change: &dyn Fn(&mut TriMesh)| {
+        let mut mesh = tetrahedron.clone();
+        change(&mut mesh);
+        mesh
+    };
+    type IsExpected = fn(&MeshDefect) -> bool;
+    let cases: [(TriMesh, IsExpected); 6] = [
+        (with(&|m| m.triangles[2][1] = 4), |d| {
+            matches!(d, MeshDefect::IndexOutOfRange { triangle: 2, vertex: 4, count: 4 })
+        }),
+        (with(&|m| m.triangles[2][1] = m.triangles[2][0]), |d| {
+            matches!(d, MeshDefect::DegenerateTriangle { triangle: 2 })
+        }),
+        (with(&|m| m.triangles.push(m.triangles[1])), |d| {
+            matches!(d, MeshDefect::DuplicateTriangle { first: 1, second: 4 })
+        }),
+        (
+            with(&|m| {
+                let [a, b, _] = m.triangles[0];
+                m.positions.push(Vec3::splat(3.0));
+                m.triangles.push([b, a, 4]);
+            }),
+            |d| matches!(d, MeshDefect::NonManifoldEdge { triangle: 4, .. }),
+        ),
+        (
+            // Two that share a corner.
+            with(&|m| {
+                let corner = m.positions[0];
+                m.positions.extend((1..4).map(|k| corner * 2.0 - tetrahedron.positions[k]));
+                let other = |v: u32| if v == 0 { 0 } else { v + 3 };
+                // Mirrored in a point: the other way round.
+                m.triangles
+                    .extend(tetrahedron.triangles.iter().map(|&[a, b, c]| [other(a), other(c), other(b)]));
+            }),
+            |d| matches!(d, MeshDefect::BowTieVertex { vertex: 0 }),
+        ),
+        (with(&|m| m.positions.push(Vec3::ZERO)), |d| matches!(d, MeshDefect::IsolatedVertex { vertex: 4 })),
+    ];
+    for (k, (mesh, is_expected)) in cases.iter().enumerate() {
+        for refused in [Shape::from_mesh(mesh), Shape::triangle_mesh(mesh)] {
+            match refused {
+                Err(Error::Mesh(defect)) => assert!(is_expected(&defect), "{k}: {defect}"),
+                other => panic!("{k}: {other:?}"),
+            }
+        }
+    }
 }

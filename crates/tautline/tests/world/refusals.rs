@@ -181,6 +181,9 @@ fn wrong_settings_are_refused() {
     refused(w, "settings.damping", &with(&[-1.0, 1e7]), |w, damping| {
         set(w, Settings { damping, ..base.clone() })
     });
+    refused(w, "settings.separation_speed", &with(&[0.0, -1.0]), |w, speed| {
+        set(w, Settings { separation_speed: Some(speed), ..base.clone() })
+    });
     refused(w, "settings.sleep.speed", &with(&[0.0, -1.0]), |w, speed| {
         set(w, Settings { sleep: Some(Sleep { speed, seconds: 0.5 }), ..base.clone() })
     });

@@ -1,5 +1,6 @@
 //! Judges a document: every value that is wrong, with its path.
 
+mod joint;
 mod rigid;
 mod shape;
 
@@ -15,6 +16,7 @@ use super::{
     SheetPlace, Sleep, Surface, Thread, VERSION, limits,
 };
 use crate::error::{Error, Problem};
+use joint::check_joints;
 use rigid::check_rigid;
 use shape::check_surface;
 
@@ -47,6 +49,7 @@ impl Scene {
         c.count("record_every", self.record_every, 1, 1_000_000);
         c.within("settings", |c| check_settings(c, &self.settings));
         check_bodies(&mut c, &self.bodies, self.has_trusses());
+        check_joints(&mut c, self);
         if let Some(Camera { eye, target, fov }) = &self.camera {
             c.within("camera", |c| {
                 c.vector("eye", eye, COORDINATE);

@@ -23,6 +23,9 @@ const WORTHWHILE: usize = 1024;
 /// … so many at a time.
 const CHUNK: usize = 256;
 
+/// As far as boxes reach, in m: what is about to leave the numbers there are has a box that is finite all the same.
+const FAR: Vec3 = Vec3::splat(1e37);
+
 /// A rigid body for the search.
 #[derive(Debug, Clone, Copy)]
 struct Boxed {
@@ -191,7 +194,8 @@ impl Boxed {
             let part = Aabb::around_turned(self.center, &axes, low, high);
             Aabb { low: sum.low.min(part.low), high: sum.high.max(part.high) }
         });
-        bounds.grown(self.room)
+        let bounds = bounds.grown(self.room);
+        Aabb { low: bounds.low.max(-FAR).min(FAR), high: bounds.high.max(-FAR).min(FAR) }
     }
 
     /// Whether the balls around both overlap, and nothing forbids them to collide.

@@ -254,6 +254,7 @@ impl RigidSolver {
         self.joints.solve(&mut self.crew, settings, h);
         self.stacks.look_ahead(&self.crew);
         self.crew.advance(&self.lineup, &timing);
+        self.joints.take_back(&mut self.crew);
         self.stacks.solve(aim(false), &mut self.groups, &mut self.crew);
         self.groups.pass(Pass::Relaxing, &self.softness, &mut self.crew.velocities, instructions);
         self.groups.part(&mut self.crew.velocities, instructions);

@@ -3,8 +3,15 @@
 //! A substep moves positions by q' = q + v h and velocities by the forces at q: the impulses act along the Jacobian at
 //! q, and are such that the constraints hold at q'. That is SHAKE (Ryckaert, Ciccotti & Berendsen 1977), which is
 //! symplectic and reversible, here with the rotation of Moser and Veselov (McLachlan & Zanna 2005): what swings keeps
-//! its energy, and constraints do not drift. No velocity is left over to be taken out again, so that joints have no
-//! relaxing pass. The equations are solved by Newton's method with the matrix at q.
+//! its energy, and constraints do not drift. The equations are solved by Newton's method with the matrix at q.
+//!
+//! Where a substep is too long for that (a slack chain that snaps tight), the method finds no answer, or one in which
+//! joints do work. Then velocities are made such that J v = 0, which only ever takes energy. What this leaves of
+//! errors, or contacts have made, is undone by a motion that bodies give back once they have moved: see `lend`.
+
+use glam::Vec3;
+
+use crate::joint::MOST_ROWS;
 
 use super::super::crew::Crew;
 use super::super::elimination::{Matrix, Part, Plan, ZERO, transposed};
@@ -17,11 +24,20 @@ const LEAST_ITERATIONS: usize = 2;
 /// … and at most, while rows reach their bounds or leave them.
 const MOST_ITERATIONS: usize = 8;
 
-/// Errors that are no reason to doubt Newton's method, in m or rad.
+/// Errors that are no reason to doubt Newton's method, in m or rad, …
 const SMALL_ERROR: f64 = 1e-4;
+/// … and those at which it has found the answer.
+const NO_ERROR: f64 = 1e-5;
 
 /// The most that bodies turn in a substep for Newton's method to be tried, in rad.
 const GREATEST_TURN: f32 = 2.0 * FASTEST;
+
+/// How much work joints may seem to do, as a share of what their impulses would do to bodies at rest. As much again is
+/// that of an elastic blow.
+const MOST_WORK: f32 = 0.5;
+
+/// The least undoing of an error in a substep that is worth taking back, in m or rad.
+const LEAST_LOAN: f64 = 1e-5;
 
 /// Bodies that joints hold together.
 #[derive(Debug, Clone, Default)]
@@ -37,6 +53,8 @@ pub(super) struct Assembly {
     is_linear: bool,
     matrix: Matrix,
     vector: Vec<Part>,
+    /// By mover, what the joints have done to its motion, linear and angular.
+    pulled: Vec<[Vec3; 2]>,
 }
 
 /// The substep that is being made.
@@ -102,7 +120,21 @@ impl Assembly {
     /// Solves for all joints in a substep.
     pub(super) fn solve(&mut self, pace: &Pace) {
         self.is_linear = false;
-        let (mut last_error, mut solves) = (f64::INFINITY, 0);
+        if !(self.iterate(pace) && self.does_no_work()) {
+            // Beyond Newton's method; straight on there is always a solution.
+            self.is_linear = true;
+            self.begin_anew();
+            self.iterate(pace);
+        }
+        self.lend();
+        for work in &mut self.works {
+            work.note(pace);
+        }
+    }
+
+    /// Newton's method. Returns whether it has found the answer.
+    fn iterate(&mut self, pace: &Pace) -> bool {
+        let mut last_error = f64::INFINITY;
         for iteration in 0..MOST_ITERATIONS {
             self.look_ahead();
             let has_switched = self.switch(pace);
@@ -113,24 +145,20 @@ impl Assembly {
             let error = self.find_errors();
             let converges = error < last_error.max(SMALL_ERROR) && self.turns_little();
             if !self.is_linear && !converges {
-                // Beyond Newton's method; straight on there is always a solution.
-                self.is_linear = true;
-                solves = LEAST_ITERATIONS - 1;
-                self.look_ahead();
-                self.find_errors();
-            } else if solves >= LEAST_ITERATIONS && !has_switched {
-                break;
+                return false;
+            }
+            let is_met = error < NO_ERROR || self.is_linear;
+            if iteration >= LEAST_ITERATIONS && is_met && !has_switched {
+                return true;
             }
             if iteration == 0 || is_aimed_anew || has_switched {
                 self.fill();
                 self.matrix.factor(&self.plan);
             }
             self.correct();
-            (last_error, solves) = (error, solves + 1);
+            last_error = error;
         }
-        for work in &mut self.works {
-            work.note(pace);
-        }
+        false
     }
 
     fn look_ahead(&mut self) {
@@ -199,6 +227,68 @@ impl Assembly {
             }
         }
         greatest
+    }
+
+    /// Whether rows that only hold do so without work. With the velocities v⁻ before and v⁺ after the joints, that is
+    /// Σ λ J (v⁻ + v⁺)/2, which is nothing where a motion goes on as it did, and negative where it is stopped.
+    fn does_no_work(&mut self) -> bool {
+        self.pull();
+        let sums = self.works.iter().map(|work| work.work_done(&self.pulled));
+        let [work, scale] = sums.fold([0.0; 2], |sum, [work, scale]| [sum[0] + work, sum[1] + scale]);
+        work <= MOST_WORK * scale
+    }
+
+    fn pull(&mut self) {
+        self.pulled.clear();
+        self.pulled.resize(self.movers.len(), [Vec3::ZERO; 2]);
+        for work in &self.works {
+            work.pull(&self.movers, &mut self.pulled);
+        }
+    }
+
+    /// Goes back to how bodies would move without joints. To make J v = 0 from there takes energy.
+    fn begin_anew(&mut self) {
+        self.pull();
+        for (mover, pulled) in self.movers[..self.solved].iter_mut().zip(&self.pulled) {
+            mover.calm(*pulled);
+        }
+        for work in &mut self.works {
+            work.joint.state.multipliers = [0.0; MOST_ROWS];
+        }
+    }
+
+    /// Finds the part of all motions that undoes errors. It is given back after bodies have moved: kept, it would throw
+    /// them, and the more the longer the chain that it adds up along.
+    fn lend(&mut self) {
+        self.vector.clear();
+        self.vector.resize(self.solved + self.works.len(), [0.0; 6]);
+        let mut greatest = 0.0f64;
+        for (work, part) in self.works.iter().zip(&mut self.vector[self.solved..]) {
+            for (k, number) in part.iter_mut().enumerate().filter(|(k, _)| work.is_held[*k]) {
+                *number = f64::from(work.recovery(k));
+                greatest = greatest.max(number.abs());
+            }
+        }
+        if greatest > LEAST_LOAN {
+            self.matrix.solve(&self.plan, &mut self.vector);
+            let (motions, multipliers) = self.vector.split_at(self.solved);
+            for (mover, part) in self.movers.iter_mut().zip(motions) {
+                mover.lend(part);
+            }
+            // Which the matrix gives with the other sign.
+            for (work, part) in self.works.iter_mut().zip(multipliers) {
+                work.take_back(&part.map(|number| number as f32));
+            }
+        }
+    }
+
+    /// Takes back what was lent.
+    pub(super) fn take_back(&self, crew: &mut Crew) {
+        for mover in &self.movers[..self.solved] {
+            if let Some(row) = mover.repaid(&crew.velocities[mover.place as usize]) {
+                crew.set_velocity(mover.place as usize, row);
+            }
+        }
     }
 
     /// One step of Newton's method: J Δv + σ Δλ = goal − where it leads − σ λ, M Δv = Jᵀ Δλ.

@@ -96,6 +96,13 @@ impl JointSolver {
         });
     }
 
+    /// Takes back from bodies that have moved what undid errors.
+    pub(super) fn take_back(&self, crew: &mut Crew) {
+        for assembly in &self.assemblies {
+            assembly.take_back(crew);
+        }
+    }
+
     /// Does `work` on all assemblies side by side, and then gives the bodies the motions that it left.
     fn for_each(&mut self, crew: &mut Crew, work: impl Fn(&mut Assembly, &Crew) + Send + Sync) {
         let worthwhile = self.joint_count >= WORTHWHILE && self.assemblies.len() > 1;

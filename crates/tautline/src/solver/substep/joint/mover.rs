@@ -35,6 +35,8 @@ pub(super) struct Mover {
     gained: [DVec3; 2],
     /// What the row was too coarse for in earlier substeps of this step: momentum would get lost with it.
     lost: [DVec3; 2],
+    /// What of its row is taken back once it has moved: linear and angular.
+    lent: Option<[Vec3; 2]>,
     /// Where the motion turns the axes to.
     pub(super) turned: Mat3,
 }
@@ -71,6 +73,25 @@ impl Mover {
         self.angular = self.start_axes * (Vec3::new(p, q, r) / self.root_inertia);
         self.given = [self.linear, self.angular];
         self.gained = [DVec3::ZERO; 2];
+        self.lent = None;
+    }
+
+    /// Notes a part of its motion that only undoes errors.
+    pub(super) fn lend(&mut self, part: &Part) {
+        let [linear, angular] = [0, 3].map(|k| DVec3::new(part[k], part[k + 1], part[k + 2]).as_vec3());
+        self.lent = Some([linear, self.start_axes.transpose() * angular * self.root_inertia]);
+    }
+
+    /// The row without what was lent.
+    pub(super) fn repaid(&self, row: &Row) -> Option<Row> {
+        let [linear, angular] = self.lent?;
+        let mut repaid = *row;
+        for (k, lent) in [(0, linear), (4, angular)] {
+            for (number, lent) in repaid.0[k..k + 3].iter_mut().zip(lent.to_array()) {
+                *number -= lent;
+            }
+        }
+        Some(repaid)
     }
 
     /// The row of the body, of which this was read, with what joints have changed.
@@ -118,6 +139,15 @@ impl Mover {
         self.gained[1] += self.turned_by(angular).as_dvec3();
         self.linear = (self.given[0].as_dvec3() + self.gained[0]).as_vec3();
         self.angular = (self.given[1].as_dvec3() + self.gained[1]).as_vec3();
+    }
+
+    /// Takes off what joints have done to its motion, and as much of its rotation as makes its energy with the inertia
+    /// that impulses meet no greater than it is.
+    pub(super) fn calm(&mut self, [linear, angular]: [Vec3; 2]) {
+        let [rest, turn] = [self.linear - linear, self.axes.transpose() * (self.angular - angular)];
+        let share = (self.inertia / self.slow_inertia).map(f32::sqrt);
+        [self.linear, self.angular] = [rest, self.axes * (turn * share)];
+        self.gained = [self.linear - self.given[0], self.angular - self.given[1]].map(|gain| gain.as_dvec3());
     }
 
     /// Mass and inertia about the axes of the world.

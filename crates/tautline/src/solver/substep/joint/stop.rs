@@ -3,6 +3,7 @@
 use crate::joint::{Mode, Push, Spring, Stop};
 
 use super::assembly::Pace;
+use super::work::RECOVERY;
 
 /// What f32 does not tell, in m or rad.
 const SLACK: f32 = 1e-6;
@@ -37,16 +38,31 @@ pub(super) struct Aim {
     pub(super) is_held: bool,
     pub(super) goal: f32,
     pub(super) softness: f32,
+    /// How much of the way there undoes an error.
+    pub(super) undone: f32,
+}
+
+impl Aim {
+    /// What is beyond its bound comes back no faster than the limit.
+    fn bound(row: &Row, goal: f32, undone: f32, softness: f32) -> Self {
+        Self { is_held: true, goal: if undone == 0.0 { goal } else { row.now + undone }, softness, undone }
+    }
 }
 
 pub(super) fn aim(stop: &Stop, mode: Mode, row: &Row, pace: &Pace) -> Aim {
     let softness = row.compliance / (pace.h * pace.h);
     match (mode, stop.push) {
-        // What is beyond a bound comes back no faster than the limit.
-        (Mode::AtLow, _) => Aim { is_held: true, goal: stop.low.min(row.now + pace.limit), softness },
-        (Mode::AtHigh, _) => Aim { is_held: true, goal: stop.high.max(row.now - pace.limit), softness },
+        // A rod.
+        (Mode::AtLow, _) if stop.low >= stop.high && softness == 0.0 => {
+            let undone = ((stop.low - row.now) * RECOVERY).clamp(-pace.limit, pace.limit);
+            Aim::bound(row, stop.low, undone, softness)
+        }
+        (Mode::AtLow, _) => Aim::bound(row, stop.low, (stop.low - row.now).clamp(0.0, pace.limit), softness),
+        (Mode::AtHigh, _) => {
+            Aim::bound(row, stop.high, (stop.high - row.now).clamp(-pace.limit, 0.0), softness)
+        }
         (Mode::Within, Some(Push::Motor(motor))) => {
-            Aim { is_held: true, goal: motor.speed * pace.h, softness: 0.0 }
+            Aim { is_held: true, goal: motor.speed * pace.h, ..Aim::default() }
         }
         (Mode::Within, Some(Push::Spring(spring, length))) => spring_aim(spring, length, row, pace),
         (Mode::Within, None) | (Mode::Forwards | Mode::Backwards, _) => Aim::default(),
@@ -66,7 +82,7 @@ fn spring_aim(spring: Spring, length: f32, row: &Row, pace: &Pace) -> Aim {
     let constant =
         stiffness * ((1.0 - BETA) * offset - BETA * last) + damping * ((1.0 - gamma) * last - gamma * offset);
     let slope = stiffness * BETA + damping * gamma;
-    Aim { is_held: true, goal: length - constant / slope, softness: 1.0 / slope }
+    Aim { is_held: true, goal: length - constant / slope, softness: 1.0 / slope, undone: 0.0 }
 }
 
 const BETA: f32 = 0.25;

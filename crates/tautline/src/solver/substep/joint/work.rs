@@ -15,7 +15,7 @@ const GIVE: f32 = 1e-4;
 
 /// The share of an error at the start of a substep that it undoes. Joints by themselves make next to none; what contacts
 /// pulled apart would shake if joints and contacts undid each other's work at once.
-const RECOVERY: f32 = 0.2;
+pub(super) const RECOVERY: f32 = 0.2;
 
 /// Rows that move nothing, in 1/kg.
 const LEAST_RESPONSE: f32 = 1e-25;
@@ -38,6 +38,10 @@ pub(super) struct Work {
     /// Whether a row is solved for; where it is to lead, and by how much it gives way.
     pub(super) is_held: [bool; MOST_ROWS],
     goal: [f32; MOST_ROWS],
+    /// How much of the way there undoes an error.
+    pub(super) undone: [f32; MOST_ROWS],
+    /// Whether it only holds: without a motor, a spring or compliance.
+    is_firm: [bool; MOST_ROWS],
     /// How far motions lead along the rows. That is what counts for a motor, not where it ends.
     way: [f32; MOST_ROWS],
     pub(super) softness: [f32; MOST_ROWS],
@@ -57,6 +61,8 @@ impl Work {
             ahead: zero,
             is_held: [false; MOST_ROWS],
             goal: zero,
+            undone: zero,
+            is_firm: [false; MOST_ROWS],
             way: zero,
             softness: zero,
         }
@@ -128,11 +134,10 @@ impl Work {
         for k in 0..linear + angular {
             let compliance = if k < linear { strength.compliance } else { strength.angular_compliance };
             let error = self.now[k];
-            let rest = if compliance > 0.0 {
-                0.0
-            } else {
-                error - (error * RECOVERY).clamp(-pace.limit, pace.limit)
-            };
+            self.is_firm[k] = compliance == 0.0;
+            self.undone[k] =
+                if self.is_firm[k] { -(error * RECOVERY).clamp(-pace.limit, pace.limit) } else { 0.0 };
+            let rest = if self.is_firm[k] { error + self.undone[k] } else { 0.0 };
             (self.is_held[k], self.goal[k], self.softness[k]) = (true, rest, compliance / (h * h));
         }
         for (i, stop) in self.joint.kind.stops().iter().enumerate() {
@@ -144,8 +149,11 @@ impl Work {
                 rate: self.joint.state.rate,
                 compliance: if linear == 0 { strength.compliance } else { 0.0 },
             };
-            let aim = stop::aim(stop, self.joint.state.modes[i], &row, pace);
+            let mode = self.joint.state.modes[i];
+            let aim = stop::aim(stop, mode, &row, pace);
             (self.is_held[k], self.goal[k], self.softness[k]) = (aim.is_held, aim.goal, aim.softness);
+            self.undone[k] = aim.undone;
+            self.is_firm[k] = matches!(mode, Mode::AtLow | Mode::AtHigh) && aim.softness == 0.0;
         }
         for k in 0..MOST_ROWS {
             self.is_held[k] &= self.response[k] > LEAST_RESPONSE;
@@ -187,6 +195,49 @@ impl Work {
         if let Some(base) = self.base {
             movers[base as usize].push(-force, -on_base);
         }
+    }
+
+    /// How much of the way of row k undoes an error: all but what the load takes of it.
+    pub(super) fn recovery(&self, k: usize) -> f32 {
+        let sag = if self.is_firm[k] { self.softness[k] * self.joint.state.multipliers[k] } else { 0.0 };
+        self.undone[k] - sag
+    }
+
+    /// Changes the multipliers at the end. Rows with bounds that push go on pushing.
+    pub(super) fn take_back(&mut self, changes: &[f32; MOST_ROWS]) {
+        let first: usize = self.joint.kind.locks().iter().sum();
+        for (k, (multiplier, change)) in self.joint.state.multipliers.iter_mut().zip(changes).enumerate() {
+            let rest = *multiplier + change;
+            *multiplier = if k < first || rest * *multiplier > 0.0 { rest } else { 0.0 };
+        }
+    }
+
+    /// Adds what all multipliers do to the motions of the two bodies.
+    pub(super) fn pull(&self, movers: &[Mover], pulled: &mut [[Vec3; 2]]) {
+        for (row, &multiplier) in self.rows.iter().zip(&self.joint.state.multipliers) {
+            let sides = [(self.base, -1.0, row.on_base), (Some(self.body), 1.0, row.on_body)];
+            for (index, sign, arm) in sides {
+                let Some(index) = index.map(|index| index as usize) else { continue };
+                pulled[index][0] += row.linear * (sign * multiplier * movers[index].inverse_mass);
+                pulled[index][1] += movers[index].turned_by(arm * (sign * multiplier));
+            }
+        }
+    }
+
+    /// The work of the rows that only hold, and how much it would be if they stopped the bodies, in kg m².
+    pub(super) fn work_done(&self, pulled: &[[Vec3; 2]]) -> [f32; 2] {
+        let [on_base, on_body] = [self.base, Some(self.body)]
+            .map(|index| index.map_or([Vec3::ZERO; 2], |index| pulled[index as usize]));
+        let (mut work, mut scale) = (0.0, 0.0);
+        for (k, row) in self.rows.iter().enumerate().filter(|(k, _)| self.is_held[*k] && self.is_firm[*k]) {
+            let multiplier = self.joint.state.multipliers[k];
+            let half = 0.5
+                * (row.linear.dot(on_body[0] - on_base[0]) + row.on_body.dot(on_body[1])
+                    - row.on_base.dot(on_base[1]));
+            work += multiplier * (self.way[k] - self.undone[k] - half);
+            scale += multiplier * half;
+        }
+        [work, scale]
     }
 
     /// Looks where the motions lead.
