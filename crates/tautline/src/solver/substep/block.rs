@@ -9,6 +9,8 @@
 //! the frame of the step's start. In these variables the inverse mass matrix is diag(1/m, 1), so that one Jacobian
 //! √I⁻¹ (l × Rᵀd) both reads a velocity and applies an impulse. The last number is 0 for what no impulse turns.
 
+use glam::{Mat3, Vec3};
+
 use super::rigidity;
 use crate::simd::{LANES, Lanes, Matrix3x8, Row, Vec3x8};
 
@@ -62,6 +64,17 @@ pub(super) struct Motion<L> {
     pub(super) linear: Vec3x8<L>,
     /// In the body's frame, in rad.
     pub(super) angular: Vec3x8<L>,
+}
+
+/// What three rows have in a lane.
+pub(super) fn column([x, y, z]: &Rows3, lane: usize) -> Vec3 {
+    Vec3::new(x.0[lane], y.0[lane], z.0[lane])
+}
+
+/// The axes that nine rows have in a lane.
+pub(super) fn columns(rows: &[Rows3; 3], lane: usize) -> Mat3 {
+    let [x, y, z] = rows.each_ref().map(|rows| column(rows, lane));
+    Mat3::from_cols(x, y, z)
 }
 
 #[inline(always)]

@@ -3,6 +3,7 @@
 use glam::{Mat3, Vec3};
 
 use super::RigidSolver;
+use super::block::{column, columns};
 use super::crew::Crew;
 use super::lineup::{Lineup, NOBODY};
 use super::pairs::{Key, Pairs};
@@ -215,15 +216,9 @@ impl Boxed {
     }
 }
 
-fn column(rows: &super::block::Rows3, lane: usize) -> Vec3 {
-    Vec3::new(rows[0].0[lane], rows[1].0[lane], rows[2].0[lane])
-}
-
 /// The axes of the body in a place.
 fn axes_at(crew: &Crew, place: u32) -> Mat3 {
-    let [x, y, z] = &crew.blocks[place as usize / LANES].axes;
-    let lane = place as usize % LANES;
-    Mat3::from_cols(column(x, lane), column(y, lane), column(z, lane))
+    columns(&crew.blocks[place as usize / LANES].axes, place as usize % LANES)
 }
 
 /// All pairs of parts, or of parts and triangles, whose boxes overlap.

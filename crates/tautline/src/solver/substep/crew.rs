@@ -6,20 +6,16 @@ use std::sync::Arc;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-use crate::body::{Body, CORNERS, Motion as MotionKind, Rigid, Substance};
+use crate::body::{Body, Motion as MotionKind, Rigid, Substance};
 use crate::parallel;
 use crate::particles::Particles;
 use crate::shape::Shape;
-use crate::simd::{Instructions, Kernel, LANES, Lanes, Row, Vec3x8, run};
+use crate::simd::{Instructions, Kernel, LANES, Lanes, Row, run};
 
-use super::block::{Block, Constants, Motion, ParticleRows, Rows3, particles};
+use super::block::{Block, Constants, ParticleRows, Rows3, column};
 use super::lineup::Lineup;
+use super::read::Read;
 use super::rigidity;
-
-/// How far a body moves before its contacts are looked for anew, in m.
-const TOLERANCE: f32 = 2.5e-4;
-/// By how much the speed of a body counts for how far ahead its pairs are found.
-const LOOK_AHEAD: f32 = 1.5;
 
 /// The step that is being made.
 #[derive(Debug, Clone, Copy)]
@@ -47,17 +43,17 @@ pub(super) struct Earlier {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Track {
     /// When contacts were last looked for.
-    seen: Earlier,
+    pub(super) seen: Earlier,
     /// When their boxes were made.
-    boxed: Earlier,
+    pub(super) boxed: Earlier,
     /// How far bodies may get from there, in m.
-    room: Row,
+    pub(super) room: Row,
     /// How much of the room this step may need, in m.
     pub(super) need: Row,
     /// Bits of the lanes that have moved since contacts were looked for.
-    moved: u32,
+    pub(super) moved: u32,
     /// Whether one may leave its box in this step.
-    leaves: bool,
+    pub(super) leaves: bool,
 }
 
 /// Everything by place.
@@ -80,15 +76,15 @@ pub(super) struct Crew {
 }
 
 /// A run of blocks with all that belongs to them.
-struct Squad<'a> {
-    places: &'a [u32],
-    blocks: &'a mut [Block],
-    tracks: &'a mut [Track],
-    poses: &'a mut [Row],
-    velocities: &'a mut [Row],
-    accumulated: &'a mut [Row],
-    before: &'a mut [Row],
-    kicks: &'a mut [Row],
+pub(super) struct Squad<'a> {
+    pub(super) places: &'a [u32],
+    pub(super) blocks: &'a mut [Block],
+    pub(super) tracks: &'a mut [Track],
+    pub(super) poses: &'a mut [Row],
+    pub(super) velocities: &'a mut [Row],
+    pub(super) accumulated: &'a mut [Row],
+    pub(super) before: &'a mut [Row],
+    pub(super) kicks: &'a mut [Row],
 }
 
 impl Crew {
@@ -213,8 +209,8 @@ impl Crew {
     /// What a place remembers, to be carried over to another lineup.
     pub(super) fn memory(&self, place: usize) -> TrackMemory {
         let (track, lane) = (&self.tracks[place / LANES], place % LANES);
-        let column = |rows: &Rows3| Vec3::new(rows[0].0[lane], rows[1].0[lane], rows[2].0[lane]);
-        TrackMemory { center: column(&track.seen.center), axes: track.seen.axes.each_ref().map(column) }
+        let axes = track.seen.axes.each_ref().map(|rows| column(rows, lane));
+        TrackMemory { center: column(&track.seen.center, lane), axes }
     }
 
     pub(super) fn recall(&mut self, place: usize, memory: &TrackMemory) {
@@ -285,142 +281,8 @@ fn new_block(places: &[u32], bodies: &[Body]) -> Block {
     Block { constants, ..Block::default() }
 }
 
-/// Particles to blocks and rows.
-struct Read<'a, 'b> {
-    squad: &'a mut Squad<'b>,
-    bodies: &'a [Body],
-    particles: &'a Particles,
-    timing: &'a Timing,
-}
-
-/// The particles of eight bodies, the factors that make their displacements those of a substep, and half of how
-/// much longer than that their last substep was, in substeps.
-struct Inputs {
-    positions: ParticleRows,
-    displacements: ParticleRows,
-    forces: ParticleRows,
-    scale: Row,
-    lag: Row,
-}
-
-impl Read<'_, '_> {
-    #[inline(always)]
-    fn inputs(&self, places: &[u32]) -> Inputs {
-        let mut inputs = Inputs {
-            positions: [Row::ZERO; 12],
-            displacements: [Row::ZERO; 12],
-            forces: [Row::ZERO; 12],
-            scale: Row::ZERO,
-            lag: Row::ZERO,
-        };
-        for (lane, &body) in places.iter().enumerate() {
-            let Some(body) = self.bodies.get(body as usize) else {
-                // Somewhere a body could be.
-                set_particles(&mut inputs.positions, lane, &CORNERS);
-                continue;
-            };
-            let range = body.particles.clone();
-            set_particles(&mut inputs.positions, lane, &self.particles.position[range.clone()]);
-            set_particles(&mut inputs.displacements, lane, &self.particles.displacement[range.clone()]);
-            if self.particles.is_forced {
-                set_particles(&mut inputs.forces, lane, &self.particles.force[range]);
-            }
-            inputs.scale.0[lane] = self.timing.h / body.displacement_time();
-            inputs.lag.0[lane] = (body.previous_step / self.timing.h - 1.0) * 0.5;
-        }
-        inputs
-    }
-}
-
 #[inline(always)]
-fn set_particles(rows: &mut ParticleRows, lane: usize, particles: &[Vec3]) {
-    for (rows, particle) in rows.chunks_exact_mut(3).zip(particles) {
-        for (row, number) in rows.iter_mut().zip(particle.to_array()) {
-            row.0[lane] = number;
-        }
-    }
-}
-
-impl Kernel for Read<'_, '_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<L: Lanes>(self) {
-        for i in 0..self.squad.blocks.len() {
-            let range = i * LANES..(i + 1) * LANES;
-            let inputs = self.inputs(&self.squad.places[range.clone()]);
-            let block = &mut self.squad.blocks[i];
-            let motion = block.read::<L>(&inputs.positions, &inputs.displacements, L::load(&inputs.scale));
-            let columns = block.velocity_rows(motion);
-            let kick: [L; LANES] = kick(self.timing, self.particles.is_forced, block, &inputs);
-            let lag = L::load(&inputs.lag);
-            let mut lagging = columns;
-            for k in 0..LANES {
-                lagging[k] = columns[k] + kick[k] * lag;
-            }
-            store(lagging, &mut self.squad.velocities[range.clone()]);
-            store(kick, &mut self.squad.kicks[range.clone()]);
-            let turning = track(self.timing, block, motion, &mut self.squad.tracks[i]);
-            write_poses::<L>(block, turning, &mut self.squad.poses[2 * range.start..2 * range.end]);
-            self.squad.accumulated[range].fill(Row::ZERO);
-        }
-    }
-}
-
-/// What gravity and forces add to the rows in a substep.
-#[inline(always)]
-fn kick<L: Lanes>(timing: &Timing, is_forced: bool, block: &Block, inputs: &Inputs) -> [L; LANES] {
-    let constants = &block.constants;
-    let (zero, h) = (L::splat(0.0), timing.h);
-    let gravity = Vec3x8::splat(timing.gravity * (h * h)) * L::load(&constants.gravity_scale);
-    if !is_forced {
-        return [gravity.x, gravity.y, gravity.z, zero, zero, zero, zero, zero];
-    }
-    let h_squared = L::splat(h * h);
-    let (forces, positions) = (particles::<L>(&inputs.forces), particles::<L>(&inputs.positions));
-    let center = Vec3x8::<L>::load(&block.center);
-    let (mut total, mut torque) = (Vec3x8::<L>::zero(), Vec3x8::<L>::zero());
-    for (force, position) in forces.into_iter().zip(positions) {
-        total = total + force;
-        torque = torque + (position - center).cross(force);
-    }
-    let linear = gravity + total * (L::load(&constants.inverse_mass) * h_squared);
-    let turn = block.axes_now().apply_transposed(torque).scale(Vec3x8::load(&constants.inverse_root_inertia));
-    let turn = turn * (L::load(&constants.response) * h_squared);
-    [linear.x, linear.y, linear.z, zero, turn.x, turn.y, turn.z, zero]
-}
-
-/// Notes which bodies have moved, and which may leave their boxes. Returns how far each one's rotation moves its
-/// points in the step, in m.
-#[inline(always)]
-fn track<L: Lanes>(timing: &Timing, block: &Block, motion: Motion<L>, track: &mut Track) -> L {
-    let substeps = L::splat(timing.substeps);
-    let turning = motion.angular.length() * L::load(&block.constants.reach) * substeps;
-    let look_ahead = motion.linear.length() * substeps * L::splat(LOOK_AHEAD);
-    let need = look_ahead + turning + L::splat(0.5 * timing.margin);
-    need.store(&mut track.need);
-    let moved = block.moved_squared::<L>(&track.seen.center, &track.seen.axes);
-    let has_moved = moved.greater(L::splat(TOLERANCE * TOLERANCE));
-    track.moved |= has_moved.bits();
-    if track.moved != 0 {
-        update(has_moved, &mut track.seen.center, &block.center);
-        for (rows, now) in track.seen.axes.iter_mut().zip(&block.axes) {
-            update(has_moved, rows, now);
-        }
-    }
-    let away = block.moved_squared::<L>(&track.boxed.center, &track.boxed.axes).sqrt();
-    track.leaves |= (away + need).greater(L::load(&track.room)).bits() != 0;
-    turning
-}
-
-/// Where the mask is set.
-#[inline(always)]
-fn update<L: Lanes>(mask: L, rows: &mut Rows3, now: &Rows3) {
-    Vec3x8::select(mask, Vec3x8::<L>::load(now), Vec3x8::load(rows)).store(rows);
-}
-
-#[inline(always)]
-fn store<L: Lanes>(columns: [L; LANES], rows: &mut [Row]) {
+pub(super) fn store<L: Lanes>(columns: [L; LANES], rows: &mut [Row]) {
     let lanes = L::transpose(columns);
     for (lane, row) in rows.iter_mut().enumerate() {
         lanes[lane].store(row);
@@ -435,24 +297,6 @@ fn load<L: Lanes>(rows: &[Row]) -> [L; LANES] {
         *lanes = L::load(row);
     }
     L::transpose(lanes)
-}
-
-/// See `prepare::Poses`.
-#[inline(always)]
-fn write_poses<L: Lanes>(block: &Block, turning: L, poses: &mut [Row]) {
-    let constants = &block.constants;
-    let center = Vec3x8::<L>::load(&block.center);
-    let root = Vec3x8::<L>::load(&constants.inverse_root_inertia);
-    let mass = L::load(&constants.inverse_mass);
-    let response = L::load(&constants.response);
-    let first = L::transpose([center.x, center.y, center.z, mass, root.x, root.y, root.z, response]);
-    let [e0, e1, _] = block.axes_now::<L>().0;
-    let reach = L::load(&constants.reach);
-    let second = L::transpose([e0.x, e0.y, e0.z, e1.x, e1.y, e1.z, turning, reach]);
-    for (lane, pose) in poses.chunks_exact_mut(2).enumerate() {
-        first[lane].store(&mut pose[0]);
-        second[lane].store(&mut pose[1]);
-    }
 }
 
 /// What has changed since the last time is what the contacts did; it is done again, until it changes again.

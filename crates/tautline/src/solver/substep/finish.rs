@@ -5,9 +5,9 @@
 
 use glam::Vec3;
 
-use super::group::Group;
+use super::block::ParticleRows;
+use super::group::{Group, Lane};
 use super::lineup::Lineup;
-use super::pairs::Detail;
 use super::{Lost, RigidSolver, prepare};
 use crate::body::Body;
 use crate::parallel;
@@ -23,7 +23,7 @@ const CHUNK: usize = 256;
 const BLOCKS: usize = 32;
 
 /// The particles of eight bodies: positions and displacements.
-type Written = [[Row; 12]; 2];
+type Written = [ParticleRows; 2];
 
 /// Bodies that follow each other, with their particles.
 struct Run<'a> {
@@ -34,17 +34,6 @@ struct Run<'a> {
     displacements: &'a mut [Vec3],
     lost: Vec<Lost>,
 }
-
-/// Where the rows of a pair are.
-#[derive(Clone, Copy)]
-struct Slot {
-    group: u32,
-    batch: u32,
-    lane: u32,
-}
-
-/// Of a pair without rows.
-const NOWHERE: Slot = Slot { group: u32::MAX, batch: 0, lane: 0 };
 
 impl RigidSolver {
     /// Writes the particles, and keeps the multipliers for the next step. A body that is not finite any more stays
@@ -71,34 +60,23 @@ impl RigidSolver {
     }
 
     fn keep_multipliers(&mut self) {
-        let mut slots = vec![NOWHERE; self.pairs.details.len()];
-        for (number, group) in (0..).zip(self.groups.iter_mut()).filter(|(_, group)| !group.active.is_empty())
-        {
-            group.forget_blows();
-            for (batch, rows) in (0..).zip(&group.batches) {
-                for (lane, &pair) in (0..).zip(&rows.pairs) {
-                    if let Some(slot) = slots.get_mut(pair as usize) {
-                        *slot = Slot { group: number, batch, lane };
-                    }
-                }
-            }
+        self.groups.iter_mut().filter(|group| !group.active.is_empty()).for_each(Group::forget_blows);
+        let mut lanes: Vec<Option<Lane>> = vec![None; self.pairs.details.len()];
+        for (pair, lane) in self.groups.lanes() {
+            lanes[pair as usize] = Some(lane);
         }
-        let groups: Vec<&Group> = self.groups.iter_mut().map(|group| &*group).collect();
-        let worthwhile = parallel::is_worthwhile(slots.len(), WORTHWHILE);
-        let mut chunks: Vec<_> = slots.chunks(CHUNK).zip(self.pairs.details.chunks_mut(CHUNK)).collect();
-        parallel::for_each(&mut chunks, worthwhile, |(slots, details)| {
-            for (slot, detail) in slots.iter().zip(details.iter_mut()) {
-                keep(&groups, *slot, detail);
+        let (groups, details) = (&self.groups, &mut self.pairs.details);
+        let worthwhile = parallel::is_worthwhile(lanes.len(), WORTHWHILE);
+        let mut chunks: Vec<_> = lanes.chunks(CHUNK).zip(details.chunks_mut(CHUNK)).collect();
+        parallel::for_each(&mut chunks, worthwhile, |(lanes, details)| {
+            for (lane, detail) in lanes.iter().zip(details.iter_mut()) {
+                if let (Some(lane), Some(held)) = (lane, &mut detail.held) {
+                    let (header, points) = groups.rows(lane);
+                    prepare::keep(lane.lane(), header, points, held);
+                }
             }
         });
     }
-}
-
-fn keep(groups: &[&Group], slot: Slot, detail: &mut Detail) {
-    let (Some(group), Some(held)) = (groups.get(slot.group as usize), &mut detail.held) else { return };
-    let batch = slot.batch as usize;
-    let points = &group.points[group.batches[batch].range()];
-    prepare::keep(slot.lane as usize, &group.headers[batch], points, held);
 }
 
 /// All bodies in runs. Their particles follow each other as they do.
@@ -128,7 +106,7 @@ impl Run<'_> {
         for (index, body) in (first_body..).zip(self.bodies.iter_mut()) {
             let Some(place) = lineup.place_of_motion(index) else { continue };
             let ([positions, displacements], lane) = (&written[place / LANES], place % LANES);
-            let vector = |rows: &[Row; 12], k: usize| {
+            let vector = |rows: &ParticleRows, k: usize| {
                 Vec3::new(rows[3 * k].0[lane], rows[3 * k + 1].0[lane], rows[3 * k + 2].0[lane])
             };
             let moved: [[Vec3; 2]; 4] =

@@ -3,9 +3,9 @@
 use std::ops::Range;
 
 use crate::parallel;
-use crate::simd::{Instructions, Kernel, LANES, Lanes, Row, run};
+use crate::simd::{Instructions, Kernel, Lanes, Row, run};
 
-use super::batch::{Active, Batch, Colouring, HeaderRows, PointRows};
+use super::batch::{Active, Batch, Colouring, HeaderRows, NO_PAIR, PointRows};
 use super::bounce::{Bounce, LANDING_VISITS, MOST_VISITS};
 use super::contact::{Pass, Softness, pass};
 use super::crew::Crew;
@@ -35,9 +35,16 @@ pub(super) struct Group {
 /// Where the contact of a pair is: its group, batch and lane.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Lane {
-    group: usize,
-    batch: usize,
-    pub(super) lane: usize,
+    group: u32,
+    batch: u32,
+    lane: u32,
+}
+
+impl Lane {
+    /// Of its batch.
+    pub(super) fn lane(&self) -> usize {
+        self.lane as usize
+    }
 }
 
 /// All groups, in the order in which they are solved: stripes, every other border, the borders between, and what is
@@ -135,36 +142,38 @@ impl Groups {
         }
     }
 
-    /// Where the pairs are that belong to stacks, by their index.
-    pub(super) fn stacked(&self) -> Vec<(u32, Lane)> {
-        let mut lanes = Vec::new();
-        for (number, group) in self.groups.iter().enumerate().filter(|(_, group)| !group.active.is_empty()) {
-            for (batch, of_batch) in group.batches.iter().enumerate().filter(|(_, batch)| batch.stacked != 0)
-            {
-                let stacked = (0..LANES).filter(|lane| of_batch.stacked >> lane & 1 != 0);
-                lanes.extend(stacked.map(|lane| (of_batch.pairs[lane], Lane { group: number, batch, lane })));
-            }
-        }
-        lanes.sort_unstable_by_key(|(pair, _)| *pair);
-        lanes
+    /// Where the pairs are, by their index.
+    pub(super) fn lanes(&self) -> impl Iterator<Item = (u32, Lane)> {
+        let in_use = (0..).zip(&self.groups).filter(|(_, group)| !group.active.is_empty());
+        in_use.flat_map(|(group, of_group)| {
+            (0..).zip(&of_group.batches).flat_map(move |(batch, of_batch)| {
+                let lanes = (0..).zip(of_batch.pairs).filter(|(_, pair)| *pair != NO_PAIR);
+                lanes.map(move |(lane, pair)| (pair, Lane { group, batch, lane }))
+            })
+        })
+    }
+
+    fn batch_of(&self, at: &Lane) -> (&Group, &Batch) {
+        let group = &self.groups[at.group as usize];
+        (group, &group.batches[at.batch as usize])
     }
 
     /// The rows of a contact, of which those of one lane are its own.
-    pub(super) fn rows(&self, lane: &Lane) -> (&HeaderRows, &[PointRows]) {
-        let group = &self.groups[lane.group];
-        (&group.headers[lane.batch], &group.points[group.batches[lane.batch].range()])
+    pub(super) fn rows(&self, at: &Lane) -> (&HeaderRows, &[PointRows]) {
+        let (group, batch) = self.batch_of(at);
+        (&group.headers[at.batch as usize], &group.points[batch.range()])
     }
 
-    pub(super) fn rows_mut(&mut self, lane: &Lane) -> (&mut HeaderRows, &mut [PointRows]) {
-        let group = &mut self.groups[lane.group];
-        (&mut group.headers[lane.batch], &mut group.points[group.batches[lane.batch].range()])
+    pub(super) fn rows_mut(&mut self, at: &Lane) -> (&mut HeaderRows, &mut [PointRows]) {
+        let group = &mut self.groups[at.group as usize];
+        let range = group.batches[at.batch as usize].range();
+        (&mut group.headers[at.batch as usize], &mut group.points[range])
     }
 
     /// Where the velocities of both bodies of a contact are.
-    pub(super) fn places(&self, lane: &Lane) -> [u32; 2] {
-        let group = &self.groups[lane.group];
-        let batch = &group.batches[lane.batch];
-        [batch.a[lane.lane], batch.b[lane.lane]].map(|place| place + group.range.start as u32)
+    pub(super) fn places(&self, at: &Lane) -> [u32; 2] {
+        let (group, batch) = self.batch_of(at);
+        [batch.a[at.lane()], batch.b[at.lane()]].map(|place| place + group.range.start as u32)
     }
 
     /// Does `work` on every group with its range of `rows`, phase after phase, those of a phase side by side.

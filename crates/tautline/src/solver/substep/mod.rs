@@ -1,4 +1,5 @@
-//! The solver of rigid bodies: substeps, each with one pass over soft contacts and one that relaxes them.
+//! The solver of rigid bodies: substeps, each with one pass over soft contacts and one that relaxes them; joints, and
+//! the contacts of stacks, are solved exactly.
 //!
 //! A step reads the four particles of every body once, finds contacts once, makes its substeps on centres, axes and
 //! velocities, and writes the particles back. Small steps with one pass converge better than one step with many
@@ -21,6 +22,7 @@ mod lineup;
 mod pairs;
 mod prepare;
 mod pull;
+mod read;
 mod rigidity;
 mod rolling;
 mod stack;
@@ -220,42 +222,33 @@ impl RigidSolver {
     /// Makes the solver's rows.
     pub(crate) fn prepare(&mut self, settings: &Settings, h: f32) {
         self.softness = Softness::new(h, settings.separation_speed.unwrap_or(f32::INFINITY));
-        let is_held = self.joints.held(self.lineup.solved);
-        let timing = timing(settings, h);
-        let where_and_how = (&self.lineup, &self.crew, &timing);
-        let is_held_at = |place: u32| is_held[place as usize];
-        let found = match settings.gravity == glam::Vec3::ZERO {
-            true => Vec::new(),
-            false => stack::find(&self.pairs, where_and_how, is_held_at),
-        };
-        let mut is_stacked = Vec::new();
-        if !found.is_empty() {
-            is_stacked.resize(self.pairs.pairs.len(), false);
-            found.iter().flat_map(|found| &found.pairs).for_each(|&pair| is_stacked[pair as usize] = true);
-        }
+        let found = stack::find(&self.pairs, (&self.lineup, &self.crew, &timing(settings, h)), &self.joints);
+        let is_stacked = stack::marks(&found, self.pairs.pairs.len());
         self.groups.sort_in(&self.pairs, &self.lineup, &is_stacked);
         let (poses, ground) = (&self.crew.poses, self.lineup.ground());
         self.groups.prepare(&self.pairs, poses, ground, &mut self.crew.accumulated, settings.instructions);
         self.stacks.begin(&found, &self.groups, &self.crew);
     }
 
-    /// One substep: forces, contacts, joints, motion, contacts without bias.
+    /// One substep: forces, stacks and contacts, joints, motion, stacks and contacts without bias.
     pub(crate) fn substep(&mut self, settings: &Settings, h: f32, is_first: bool) {
         let (timing, instructions) = (timing(settings, h), settings.instructions);
         self.groups.meet(&mut self.crew, h, instructions);
         self.crew.kick(&self.lineup, is_first, instructions);
         self.joints.warm_start(&mut self.crew);
-        let kick = f64::from(settings.gravity.length() * h * h);
-        let softness = self.softness;
-        let aim = |is_biased| Aim { softness: &softness, is_biased, kick };
-        self.stacks.solve(aim(true), &mut self.groups, &mut self.crew);
+        let aim = Aim {
+            softness: self.softness,
+            is_biased: true,
+            kick: f64::from(settings.gravity.length() * h * h),
+        };
+        self.stacks.solve(aim, &mut self.groups, &mut self.crew);
         self.groups.pass(Pass::Biased, &self.softness, &mut self.crew.velocities, instructions);
         self.groups.land(&self.softness, &mut self.crew.velocities, instructions);
         self.joints.solve(&mut self.crew, settings, h);
         self.stacks.look_ahead(&self.crew);
         self.crew.advance(&self.lineup, &timing);
         self.joints.take_back(&mut self.crew);
-        self.stacks.solve(aim(false), &mut self.groups, &mut self.crew);
+        self.stacks.solve(Aim { is_biased: false, ..aim }, &mut self.groups, &mut self.crew);
         self.groups.pass(Pass::Relaxing, &self.softness, &mut self.crew.velocities, instructions);
         self.groups.part(&mut self.crew.velocities, instructions);
         self.groups.resist_rolling(&mut self.crew.velocities, instructions);

@@ -3,6 +3,7 @@
 use crate::simd::{LANES, Lanes, Matrix3x8, Row, Vec3x8, rows_at};
 
 use super::batch::{Batch, HeaderRows, NO_PAIR, PointRows};
+use super::block::column;
 use super::held::Held;
 
 /// Where a body is, as two rows: centre, 1/m, 1/√I, response; first and second axis, two numbers of no concern here.
@@ -184,10 +185,7 @@ fn with_tangents<L: Lanes>(n: Vec3x8<L>) -> [Vec3x8<L>; 3] {
 
 /// Keeps the multipliers of a batch for the next step, and lets the anchors of what has slid follow.
 pub(super) fn keep(lane: usize, header: &HeaderRows, points: &[PointRows], held: &mut Held) {
-    let tangent = |axis: usize, factor: f32| {
-        let rows = &header.tangents[axis];
-        glam::Vec3::new(rows[0].0[lane], rows[1].0[lane], rows[2].0[lane]) * factor
-    };
+    let tangent = |axis: usize, factor: f32| column(&header.tangents[axis], lane) * factor;
     for (point, rows) in held.points.iter_mut().zip(points) {
         let impulses = [0, 1].map(|axis| rows.tangent_impulses[axis].0[lane]);
         let tangential = tangent(0, impulses[0]) + tangent(1, impulses[1]);

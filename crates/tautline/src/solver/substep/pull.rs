@@ -3,6 +3,7 @@
 use glam::{Mat3, Vec3};
 
 use super::RigidSolver;
+use super::block::{column, columns};
 use super::lineup::NOBODY;
 use crate::simd::LANES;
 
@@ -34,12 +35,10 @@ impl RigidSolver {
             return;
         }
         let (block, lane) = (&self.crew.blocks[place / LANES], place % LANES);
-        let column =
-            |rows: &super::block::Rows3| Vec3::new(rows[0].0[lane], rows[1].0[lane], rows[2].0[lane]);
-        let matrix = |[x, y, z]: &[super::block::Rows3; 3]| Mat3::from_cols(column(x), column(y), column(z));
-        let (arm, start) = (matrix(&block.axes) * point, matrix(&block.start_axes));
-        let center = column(&block.center) + column(&block.shift);
-        let (inertia, root) = (column(&block.constants.inertia), column(&block.constants.root_inertia));
+        let (arm, start) = (columns(&block.axes, lane) * point, columns(&block.start_axes, lane));
+        let center = column(&block.center, lane) + column(&block.shift, lane);
+        let constants = &block.constants;
+        let (inertia, root) = (column(&constants.inertia, lane), column(&constants.root_inertia, lane));
         let row = &self.crew.velocities[place].0;
         // The row's rotation is √I ω in the frame of the step's start, see `block`.
         let turn = start * (Vec3::new(row[4], row[5], row[6]) / root);

@@ -4,7 +4,7 @@ use glam::{DVec3, Mat3, Vec3};
 
 use crate::simd::{LANES, Row};
 
-use super::super::block::{Block, Rows3};
+use super::super::block::{Block, column, columns};
 use super::super::elimination::{self, Part};
 use super::super::rigidity;
 
@@ -39,14 +39,6 @@ pub(super) struct Mover {
     lent: Option<[Vec3; 2]>,
     /// Where the motion turns the axes to.
     pub(super) turned: Mat3,
-}
-
-fn column(rows: &Rows3, lane: usize) -> Vec3 {
-    Vec3::new(rows[0].0[lane], rows[1].0[lane], rows[2].0[lane])
-}
-
-fn columns(rows: &[Rows3; 3], lane: usize) -> Mat3 {
-    Mat3::from_cols(column(&rows[0], lane), column(&rows[1], lane), column(&rows[2], lane))
 }
 
 impl Mover {

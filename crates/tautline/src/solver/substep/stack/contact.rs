@@ -1,9 +1,11 @@
 //! One contact of a stack: its lane of a batch of contacts, taken out.
 
+use glam::DVec3;
+
 use crate::simd::Row;
 
 use super::super::batch::PointRows;
-use super::super::block::Rows3;
+use super::super::block::{Rows3, column};
 use super::super::elimination::Part;
 use super::super::group::{Groups, Lane};
 use super::super::held::MOST_POINTS;
@@ -33,7 +35,7 @@ pub(super) enum Hold {
 
 #[derive(Debug, Clone, Default)]
 pub(super) struct Contact {
-    lane: Lane,
+    at: Lane,
     /// Indices of a and b in the stack.
     pub(super) ends: [u32; 2],
     pub(super) friction: f64,
@@ -66,13 +68,10 @@ pub(super) struct Point {
     pub(super) slides: Option<[f64; 2]>,
 }
 
-fn column(rows: &Rows3, lane: usize) -> [f64; 3] {
-    [0, 1, 2].map(|k| f64::from(rows[k].0[lane]))
-}
-
-fn line(direction: [f64; 3], turns: [[f64; 3]; 2]) -> [Part; 2] {
-    let ([x, y, z], [a, b]) = (direction, turns);
-    [[-x, -y, -z, -a[0], -a[1], -a[2]], [x, y, z, b[0], b[1], b[2]]]
+/// The Jacobian of the distance along a direction, for a and b: how their turns change it is told.
+fn line(direction: DVec3, [on_a, on_b]: [DVec3; 2]) -> [Part; 2] {
+    let part = |v: DVec3, w: DVec3| [v.x, v.y, v.z, w.x, w.y, w.z];
+    [part(-direction, -on_a), part(direction, on_b)]
 }
 
 pub(super) fn dot(a: &Part, b: &Part) -> f64 {
@@ -80,77 +79,95 @@ pub(super) fn dot(a: &Part, b: &Part) -> f64 {
 }
 
 impl Contact {
-    pub(super) fn new(lane: Lane, groups: &Groups) -> Self {
-        let (header, points) = groups.rows(&lane);
-        let (normal, tangents) =
-            (column(&header.normal, lane.lane), [0, 1].map(|k| column(&header.tangents[k], lane.lane)));
-        let point = |rows: &PointRows| {
-            let turns = |a: &Rows3, b: &Rows3| [column(a, lane.lane), column(b, lane.lane)];
-            let lines = [
-                line(normal, turns(&rows.normal_a, &rows.normal_b)),
-                line(tangents[0], turns(&rows.tangents_a[0], &rows.tangents_b[0])),
-                line(tangents[1], turns(&rows.tangents_a[1], &rows.tangents_b[1])),
-            ];
-            let number = |row: &Row| f64::from(row.0[lane.lane]);
-            Point {
-                lines,
-                separation: number(&rows.separation),
-                drift: [number(&rows.drift[0]), number(&rows.drift[1])],
-                masses: [rows.normal_mass.0[lane.lane], rows.tangent_mass.0[lane.lane]],
-                ..Point::default()
-            }
+    /// The contact in a lane.
+    pub(super) fn new(at: Lane, groups: &Groups) -> Self {
+        let (header, rows) = groups.rows(&at);
+        let vector = |rows: &Rows3| column(rows, at.lane()).as_dvec3();
+        let number = |row: &Row| f64::from(row.0[at.lane()]);
+        let [first, second] = &header.tangents;
+        let point = |rows: &PointRows| Point {
+            lines: [
+                line(vector(&header.normal), [vector(&rows.normal_a), vector(&rows.normal_b)]),
+                line(vector(first), [vector(&rows.tangents_a[0]), vector(&rows.tangents_b[0])]),
+                line(vector(second), [vector(&rows.tangents_a[1]), vector(&rows.tangents_b[1])]),
+            ],
+            separation: number(&rows.separation),
+            drift: rows.drift.each_ref().map(number),
+            masses: [&rows.normal_mass, &rows.tangent_mass].map(|row| row.0[at.lane()]),
+            ..Point::default()
         };
-        let points: Vec<Point> = points.iter().map(point).collect();
+        let points: Vec<Point> = rows.iter().map(point).collect();
         let redundancy = redundancy(&points);
-        let friction = f64::from(header.friction.0[lane.lane]);
-        Self { lane, friction, points, redundancy, ..Self::default() }
+        Self { at, friction: number(&header.friction), points, redundancy, ..Self::default() }
     }
 
     /// Where the velocities of a and b are.
     pub(super) fn places(&self, groups: &Groups) -> [u32; 2] {
-        groups.places(&self.lane)
+        groups.places(&self.at)
     }
 
+    /// Finds how stiff its rows have to be for bodies of these masses (1/kg).
     pub(super) fn weigh(&mut self, inverse_masses: &[f64]) {
         let [a, b] = self.ends.map(|end| inverse_masses[end as usize]);
         self.stiffness = 1.0 / (GIVE * (a + b));
     }
 
+    /// Begins a solution with the multipliers that there are.
     pub(super) fn read(&mut self, groups: &Groups) {
-        let (_, rows) = groups.rows(&self.lane);
-        let number = |row: &Row| f64::from(row.0[self.lane.lane]);
+        let (_, rows) = groups.rows(&self.at);
         for (point, rows) in self.points.iter_mut().zip(rows) {
-            point.multipliers = [
-                number(&rows.normal_impulse),
-                number(&rows.tangent_impulses[0]),
-                number(&rows.tangent_impulses[1]),
-            ];
+            let [first, second] = &rows.tangent_impulses;
+            let number = |row: &Row| f64::from(row.0[self.at.lane()]);
+            point.multipliers = [&rows.normal_impulse, first, second].map(number);
             (point.has_let_go, point.slides) = (false, None);
         }
     }
 
-    /// Hands everything back to the passes; a solved contact so that these do nothing with it. The anchors of what
-    /// slides follow it.
-    pub(super) fn write(&mut self, groups: &mut Groups, is_solved: bool) {
-        let lane = self.lane.lane;
-        let (header, rows) = groups.rows_mut(&self.lane);
-        header.is_soft.0[lane] = if is_solved { 0.0 } else { 1.0 };
-        for (point, rows) in self.points.iter_mut().zip(rows) {
-            for axis in 0..2 {
-                if point.slides.is_some() {
-                    point.slid[axis] += std::mem::take(&mut point.drift[axis]);
-                }
-                rows.drift[axis].0[lane] = point.drift[axis] as f32;
-                rows.slid[axis].0[lane] = point.slid[axis] as f32;
+    /// Hands a solution to the passes, so that these do nothing with it. The anchors of what slides follow it.
+    pub(super) fn write(&mut self, groups: &mut Groups) {
+        for point in self.points.iter_mut().filter(|point| point.slides.is_some()) {
+            for (slid, drift) in point.slid.iter_mut().zip(&mut point.drift) {
+                *slid += std::mem::take(drift);
             }
+        }
+        self.write_points(groups);
+        self.hand_over(groups, true);
+    }
+
+    /// Leaves it to the passes as it was before the last solution. After bodies have moved the rows are still from
+    /// before: the relaxing pass moves surfaces too.
+    pub(super) fn give_up(&self, groups: &mut Groups, has_moved: bool) {
+        if !has_moved {
+            self.write_points(groups);
+        }
+        self.hand_over(groups, false);
+    }
+
+    fn write_points(&self, groups: &mut Groups) {
+        let lane = self.at.lane();
+        for (point, rows) in self.points.iter().zip(groups.rows_mut(&self.at).1) {
+            let [normal, first, second] = point.multipliers;
+            rows.normal_impulse.0[lane] = normal as f32;
+            rows.separation.0[lane] = point.separation as f32;
+            let tangents = [
+                (&mut rows.tangent_impulses, [first, second]),
+                (&mut rows.drift, point.drift),
+                (&mut rows.slid, point.slid),
+            ];
+            for (rows, numbers) in tangents {
+                rows.iter_mut().zip(numbers).for_each(|(row, number)| row.0[lane] = number as f32);
+            }
+        }
+    }
+
+    /// What is solved has no mass for the passes, and is not soft.
+    fn hand_over(&self, groups: &mut Groups, is_solved: bool) {
+        let lane = self.at.lane();
+        let (header, rows) = groups.rows_mut(&self.at);
+        header.is_soft.0[lane] = if is_solved { 0.0 } else { 1.0 };
+        for (point, rows) in self.points.iter().zip(rows) {
             let [normal_mass, tangent_mass] = if is_solved { [0.0; 2] } else { point.masses };
             (rows.normal_mass.0[lane], rows.tangent_mass.0[lane]) = (normal_mass, tangent_mass);
-            let [normal, tangents @ ..] = point.multipliers.map(|number| number as f32);
-            rows.normal_impulse.0[lane] = normal;
-            for (row, number) in rows.tangent_impulses.iter_mut().zip(tangents) {
-                row.0[lane] = number;
-            }
-            rows.separation.0[lane] = point.separation as f32;
         }
     }
 
@@ -204,6 +221,16 @@ impl Point {
     pub(super) fn depth(&self) -> f64 {
         -self.separation
     }
+
+    /// The Jacobians of the rows that are held, and what they are to lead to.
+    pub(super) fn held_rows(&self) -> impl Iterator<Item = (&[Part; 2], f64)> {
+        let count = match self.hold {
+            Hold::Off => 0,
+            Hold::Slides => 1,
+            Hold::Sticks => 3,
+        };
+        self.lines.iter().zip(self.targets).take(count)
+    }
 }
 
 fn beyond_slop(distance: f64) -> f64 {
@@ -221,7 +248,7 @@ fn redundancy(points: &[Point]) -> Option<[f64; MOST_POINTS]> {
     let spread =
         |rows: &[Part; 4]| rows.iter().map(|row| row[3..].iter().map(|x| x * x).sum::<f64>()).sum::<f64>();
     let (a, b) = (turns(0), turns(1));
-    let rows = if spread(&a) > spread(&b) { a } else { b }.map(|[.., p, q, r]| glam::DVec3::new(p, q, r));
+    let rows = if spread(&a) > spread(&b) { a } else { b }.map(|[.., p, q, r]| DVec3::new(p, q, r));
     let normal = (rows[1] - rows[0]).cross(rows[2] - rows[0]) + (rows[2] - rows[0]).cross(rows[3] - rows[0]);
     let area = |i: usize, j: usize, k: usize| normal.dot((rows[j] - rows[i]).cross(rows[k] - rows[i]));
     let out = [area(1, 2, 3), -area(0, 2, 3), area(0, 1, 3), -area(0, 1, 2)];

@@ -5,9 +5,11 @@
 //! lighter; or few bodies that are about to slide or to topple, or that nothing bore yet. Only up to a few dozen, for an
 //! exact solution costs more than passes: larger heaps have soft contacts.
 
+use glam::Vec3;
+
 use super::super::crew::{Crew, Timing};
 use super::super::held::Held;
-use super::super::joint::Sets;
+use super::super::joint::{JointSolver, Sets};
 use super::super::lineup::Lineup;
 use super::super::pairs::Pairs;
 
@@ -39,65 +41,85 @@ pub(in super::super) struct Found {
 /// A pair that touches: its index, and the places of its bodies.
 type Touch = (u32, [u32; 2]);
 
-/// Finds all stacks. `is_held` tells of a place whether joints hold its body.
+/// Bodies that touch one another, ascending, and where. Of too many bodies it is not told where.
+#[derive(Debug, Clone, Default)]
+struct Island {
+    places: Vec<u32>,
+    touches: Vec<Touch>,
+}
+
+/// Finds all stacks. Without gravity there are none: nothing leans.
 pub(in super::super) fn find(
     pairs: &Pairs,
     (lineup, crew, timing): (&Lineup, &Crew, &Timing),
-    is_held: impl Fn(u32) -> bool,
+    joints: &JointSolver,
 ) -> Vec<Found> {
+    if timing.gravity == Vec3::ZERO {
+        return Vec::new();
+    }
+    let is_held = joints.held(lineup.solved);
+    let quiet = QUIET * timing.h * timing.substeps;
+    let mut left = MOST_IN_ALL;
+    let mut is_stack = |island: &Island| {
+        let Island { places, touches } = island;
+        let is_one = places.len() <= MOST_BODIES.min(left)
+            && touches.len() <= MOST_PAIRS
+            && !places.iter().any(|&place| is_held[place as usize])
+            && fastest(touches, pairs, (crew, timing.substeps)) < quiet
+            && (is_hard(places, touches, crew) || places.len() <= FEW && is_delicate(touches, pairs));
+        left -= if is_one { places.len() } else { 0 };
+        is_one
+    };
+    let stacks = islands(pairs, lineup).into_iter().filter(|island| is_stack(island));
+    let found = |Island { places, touches }| {
+        let pairs = touches.into_iter().map(|(pair, _)| pair).collect();
+        Found { places, pairs }
+    };
+    stacks.map(found).collect()
+}
+
+/// Of each pair whether it is in a stack; none if no pair is.
+pub(in super::super) fn marks(found: &[Found], pair_count: usize) -> Vec<bool> {
+    let mut marks = vec![false; if found.is_empty() { 0 } else { pair_count }];
+    found.iter().flat_map(|found| &found.pairs).for_each(|&pair| marks[pair as usize] = true);
+    marks
+}
+
+/// Everything that touches something, in the order of the lowest places.
+fn islands(pairs: &Pairs, lineup: &Lineup) -> Vec<Island> {
     let place = |body: u32| lineup.place_of.get(body as usize).copied().unwrap_or(u32::MAX);
-    let is_solved = |place: u32| (place as usize) < lineup.solved;
+    let is_solved = |place: &u32| (*place as usize) < lineup.solved;
     let touches = || {
         let touching = (0..).zip(&pairs.pairs).filter(|(_, pair)| pair.points > 0);
         touching.map(|(index, pair)| (index, [place(pair.a), place(pair.b).min(lineup.ground())]))
     };
     let mut sets = Sets::new(lineup.solved);
     let mut touches_any = vec![false; lineup.solved];
-    for (_, [a, b]) in touches() {
-        if is_solved(a) && is_solved(b) {
-            sets.join(a, b);
-        }
-        for place in [a, b].into_iter().filter(|&place| is_solved(place)) {
-            touches_any[place as usize] = true;
+    for (_, ends) in touches() {
+        ends.iter().filter(|place| is_solved(place)).for_each(|&place| touches_any[place as usize] = true);
+        if ends.iter().all(is_solved) {
+            sets.join(ends[0], ends[1]);
         }
     }
-    let mut members: Vec<Found> = Vec::new();
-    let mut found_at = vec![u32::MAX; lineup.solved];
-    for body in (0..lineup.solved as u32).filter(|&body| touches_any[body as usize]) {
-        let root = sets.root(body) as usize;
-        if found_at[root] == u32::MAX {
-            found_at[root] = members.len() as u32;
-            members.push(Found::default());
+    let mut islands: Vec<Island> = Vec::new();
+    // By the lowest of its places, which is the root of the set.
+    let mut numbers = vec![0; lineup.solved];
+    for place in (0..lineup.solved as u32).filter(|&place| touches_any[place as usize]) {
+        let root = sets.root(place);
+        if root == place {
+            numbers[root as usize] = islands.len();
+            islands.push(Island::default());
         }
-        members[found_at[root] as usize].places.push(body);
+        islands[numbers[root as usize]].places.push(place);
     }
-    let mut contacts: Vec<Vec<Touch>> = vec![Vec::new(); members.len()];
-    for touch in touches() {
-        let Some(solved) = touch.1.into_iter().find(|&place| is_solved(place)) else { continue };
-        let number = found_at[sets.root(solved) as usize] as usize;
-        if members.get(number).is_some_and(|found| found.places.len() <= MOST_BODIES) {
-            contacts[number].push(touch);
-        }
-    }
-    let mut left = MOST_IN_ALL;
-    let mut is_stack = |found: &Found, contacts: &[Touch]| {
-        let is_one = found.places.len() <= MOST_BODIES.min(left)
-            && contacts.len() <= MOST_PAIRS
-            && !found.places.iter().any(|&place| is_held(place))
-            && fastest(contacts, pairs, (crew, timing.substeps)) < QUIET * timing.h * timing.substeps
-            && (is_hard(&found.places, contacts, crew)
-                || found.places.len() <= FEW && is_delicate(contacts, pairs));
-        left -= if is_one { found.places.len() } else { 0 };
-        is_one
-    };
-    let mut stacks = Vec::new();
-    for (mut found, contacts) in members.into_iter().zip(contacts) {
-        if is_stack(&found, &contacts) {
-            found.pairs = contacts.iter().map(|(index, _)| *index).collect();
-            stacks.push(found);
+    for (index, ends) in touches() {
+        let Some(&end) = ends.iter().find(|place| is_solved(place)) else { continue };
+        let island = &mut islands[numbers[sets.root(end) as usize]];
+        if island.places.len() <= MOST_BODIES {
+            island.touches.push((index, ends));
         }
     }
-    stacks
+    islands
 }
 
 /// Whether loads go through many bodies, or from heavy to light ones, and something bears them.
@@ -147,10 +169,10 @@ fn is_delicate(contacts: &[Touch], pairs: &Pairs) -> bool {
     let held = || contacts.iter().filter_map(|(index, _)| pairs.details[*index as usize].held.as_deref());
     let bears = |held: &Held| held.points.iter().any(|point| point.normal_impulse() > 0.0);
     let is_strained = |held: &Held| {
-        held.points.iter().any(|point| {
-            let limit = STRAINED * held.friction() * point.normal_impulse();
-            point.is_there() && bears(held) && point.tangent_impulse().length_squared() >= limit * limit
+        held.points.iter().filter(|point| point.is_there()).any(|point| {
+            let (normal, friction) = (point.normal_impulse(), point.tangent_impulse().length());
+            normal == 0.0 || friction > STRAINED * held.friction() * normal
         })
     };
-    !held().any(bears) || held().any(is_strained)
+    !held().any(bears) || held().any(|held| bears(held) && is_strained(held))
 }

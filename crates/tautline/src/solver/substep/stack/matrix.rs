@@ -2,8 +2,8 @@
 //!
 //! K is so stiff that what is left of t − J v does not matter; the multipliers change by K (t − J (v + Δv)).
 
-use super::super::elimination::{Block, Matrix, Part, Plan, ZERO};
-use super::contact::{Contact, Hold};
+use super::super::elimination::{Block, Matrix, Part, Plan, ZERO, transposed};
+use super::contact::{Contact, Hold, Point};
 
 #[derive(Debug, Clone)]
 pub(super) struct System {
@@ -77,7 +77,7 @@ impl System {
                 let (index, is_transposed) = self.plan.blocks[edge as usize];
                 // The edge's column is the lower of both; `between` has b's rows.
                 let is_turned = (a > b) != is_transposed;
-                let block = if is_turned { super::super::elimination::transposed(&between) } else { between };
+                let block = if is_turned { transposed(&between) } else { between };
                 add(&mut self.matrix.lower[index as usize], &block);
             }
         }
@@ -99,15 +99,7 @@ fn add(block: &mut Block, other: &Block) {
 /// k a aᵀ, k b bᵀ and k b aᵀ, summed over the rows that are held.
 fn blocks(contact: &Contact) -> [Block; 3] {
     let mut blocks = [ZERO; 3];
-    let held = contact.points.iter().flat_map(|point| {
-        let count = match point.hold {
-            Hold::Off => 0,
-            Hold::Slides => 1,
-            Hold::Sticks => 3,
-        };
-        &point.lines[..count]
-    });
-    for [a, b] in held {
+    for ([a, b], _) in contact.points.iter().flat_map(Point::held_rows) {
         for (block, (left, right)) in blocks.iter_mut().zip([(a, a), (b, b), (b, a)]) {
             for (row, factor) in block.iter_mut().zip(left) {
                 let factor = factor * contact.stiffness;

@@ -3,8 +3,8 @@
 //! A pass over contacts lets a body feel only what touches it. The multipliers that are kept from substep to substep
 //! make up for that while loads stay the same, but they act as springs: in a tower of n bodies the slowest sway has a
 //! damping that falls with n⁻⁴. What damps it is the softness of contacts, and then the tower sinks and leans. So the
-//! contacts of a stack are not soft, and are solved exactly, for velocities with bias and for those without: towers of forty
-//! stand, and one on a thousand, and come to rest. The passes leave them alone unless no solution was found.
+//! contacts of a stack are not soft, and are solved exactly, for velocities with bias and for those without: towers of
+//! forty stand, and one on a thousand, and come to rest. The passes leave them alone unless no solution was found.
 //!
 //! It costs more than a pass by far, and pays where loads go through many bodies or from heavy to light ones: see
 //! `find` for what counts as a stack.
@@ -22,7 +22,7 @@ use super::elimination::Part;
 use super::group::{Groups, Lane};
 
 use contact::{Contact, Point};
-pub(super) use find::{Found, find};
+pub(super) use find::{Found, find, marks};
 use matrix::System;
 
 /// From so many contacts on it pays to solve stacks side by side.
@@ -49,15 +49,12 @@ struct Stack {
     /// By place, in the variables of `block`.
     velocities: Vec<Part>,
     system: System,
-    is_solved: bool,
-    /// Whether some solution of this step was not found, or will not do: then all of it is left to soft contacts.
-    has_failed: bool,
 }
 
 /// What the exact solution is for.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Aim<'a> {
-    pub(super) softness: &'a Softness,
+pub(super) struct Aim {
+    pub(super) softness: Softness,
     /// Whether bodies are to be moved apart, not only to stop.
     pub(super) is_biased: bool,
     /// What gravity gives a body in a substep, in m.
@@ -67,22 +64,37 @@ pub(super) struct Aim<'a> {
 impl Stacks {
     /// Takes the rows of the stacks' contacts from the groups that hold them.
     pub(super) fn begin(&mut self, found: &[Found], groups: &Groups, crew: &Crew) {
-        let lanes = groups.stacked();
-        self.stacks = found.iter().map(|found| Stack::new(found, &lanes, groups, crew)).collect();
+        self.stacks.clear();
+        if found.is_empty() {
+            return;
+        }
+        let mut lanes: Vec<(u32, Lane)> = groups.lanes().collect();
+        lanes.sort_unstable_by_key(|(pair, _)| *pair);
+        let stacks = found.iter().map(|found| Stack::new(found, &lanes, groups, crew));
+        self.stacks.extend(stacks.filter(|stack| stack.points().all(|point| point.depth() <= DEEP)));
     }
 
-    /// Solves all contacts of all stacks, and hands the rows and velocities back.
-    pub(super) fn solve(&mut self, aim: Aim<'_>, groups: &mut Groups, crew: &mut Crew) {
+    /// Solves all contacts of all stacks, and hands the rows and velocities back. A stack for which no solution is found
+    /// is left to soft contacts for the rest of the step.
+    pub(super) fn solve(&mut self, aim: Aim, groups: &mut Groups, crew: &mut Crew) {
         let contact_count: usize = self.stacks.iter().map(|stack| stack.contacts.len()).sum();
         let worthwhile = self.stacks.len() > 1 && contact_count >= WORTHWHILE;
         let (shared, rows) = (&*crew, &*groups);
-        parallel::for_each(&mut self.stacks, worthwhile, |stack| {
+        let mut tasks: Vec<(&mut Stack, bool)> = self.stacks.iter_mut().map(|stack| (stack, false)).collect();
+        parallel::for_each(&mut tasks, worthwhile, |(stack, is_solved)| {
             stack.read(rows, shared);
-            stack.try_to_solve(aim);
+            *is_solved = stack.try_to_solve(aim);
         });
-        for stack in &mut self.stacks {
-            stack.write(groups, crew);
-        }
+        let mut is_solved = tasks.into_iter().map(|(_, is_solved)| is_solved).collect::<Vec<_>>().into_iter();
+        self.stacks.retain_mut(|stack| {
+            let is_solved = is_solved.next() == Some(true);
+            if is_solved {
+                stack.write(groups, crew)
+            } else {
+                stack.give_up(groups, !aim.is_biased)
+            }
+            is_solved
+        });
     }
 
     /// Before bodies are moved: finds where that leaves the surfaces. The passes do that for all contacts, but with
@@ -122,9 +134,8 @@ impl Stack {
             contact.weigh(&inverse_masses);
         }
         let velocities = vec![[0.0; 6]; places.len()];
-        let is_deep = contacts.iter().flat_map(|contact| &contact.points).any(|point| point.depth() > DEEP);
         let system = System::new(inverse_masses, solved, &contacts);
-        Self { places, contacts, velocities, system, is_solved: false, has_failed: is_deep }
+        Self { places, contacts, velocities, system }
     }
 
     fn read_velocities(&mut self, crew: &Crew) {
@@ -141,19 +152,17 @@ impl Stack {
         }
     }
 
-    /// Solves it, or leaves it as it is. Friction can jam so that no impulses are enough (Painlevé 1895); what looks like
-    /// a solution then gives energy.
-    fn try_to_solve(&mut self, aim: Aim<'_>) {
-        let velocities = self.velocities.clone();
+    /// Solves it, and tells whether that will do; else multipliers are as they were. Friction can jam so that no impulses
+    /// are enough (Painlevé 1895); what looks like a solution then gives energy.
+    fn try_to_solve(&mut self, aim: Aim) -> bool {
         let multipliers: Vec<[f64; 3]> = self.points().map(|point| point.multipliers).collect();
         let most = self.energy() + self.allowance(aim);
-        self.is_solved = !self.has_failed && self.solve(aim) && self.energy() <= most;
-        if !self.is_solved {
-            self.has_failed = true;
-            self.velocities = velocities;
-            let points = self.contacts.iter_mut().flat_map(|contact| &mut contact.points);
-            points.zip(multipliers).for_each(|(point, before)| point.multipliers = before);
+        if self.solve(aim) && self.energy() <= most {
+            return true;
         }
+        let points = self.contacts.iter_mut().flat_map(|contact| &mut contact.points);
+        points.zip(multipliers).for_each(|(point, before)| point.multipliers = before);
+        false
     }
 
     fn points(&self) -> impl Iterator<Item = &Point> {
@@ -171,7 +180,7 @@ impl Stack {
     }
 
     /// By how much the energy may grow: what bodies have that gravity or correction moves, and that were held before.
-    fn allowance(&self, aim: Aim<'_>) -> f64 {
+    fn allowance(&self, aim: Aim) -> f64 {
         let deepest = self.points().map(Point::depth).fold(0.0, f64::max);
         let correction = if aim.is_biased { f64::from(aim.softness.bias) * deepest } else { 0.0 };
         let speed = ALLOWED * (aim.kick + correction);
@@ -185,8 +194,10 @@ impl Stack {
             [row[0], row[1], row[2]] = [x, y, z];
             [row[4], row[5], row[6]] = [p, q, r];
         }
-        for contact in &mut self.contacts {
-            contact.write(groups, self.is_solved);
-        }
+        self.contacts.iter_mut().for_each(|contact| contact.write(groups));
+    }
+
+    fn give_up(&self, groups: &mut Groups, has_moved: bool) {
+        self.contacts.iter().for_each(|contact| contact.give_up(groups, has_moved));
     }
 }

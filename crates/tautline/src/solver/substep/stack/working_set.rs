@@ -32,13 +32,16 @@ const FAST: f64 = 2.0;
 /// How fast depth is undone in a substep, summed over a stack, as a share of gravity's kick.
 const LIFT: f64 = 0.5;
 
+/// What is left of a multiplier that is zero.
+const ROUNDING: f64 = 1e-6;
+
 /// How far beyond the cone friction has to be to slide.
 const CONE: f64 = 1.0001;
 
 impl Stack {
     /// Finds the impulses of all contacts in a substep. Tells whether it has.
-    pub(super) fn solve(&mut self, aim: Aim<'_>) -> bool {
-        let Softness { bias, drift_rate, limit, .. } = *aim.softness;
+    pub(super) fn solve(&mut self, aim: Aim) -> bool {
+        let Softness { bias, drift_rate, limit, .. } = aim.softness;
         let [bias, drift_rate, limit] = if aim.is_biased { [bias, drift_rate, limit] } else { [0.0; 3] };
         // Slower than gravity takes up what is lifted, or a stack would be thrown up.
         let limit = f64::from(limit).min(LIFT * aim.kick / self.system.solved() as f64);
@@ -55,7 +58,8 @@ impl Stack {
             self.system.factor(&self.contacts);
             let change = self.change();
             let share = self.longest_share(&change);
-            if self.take(&change, share, iteration + 1 == MOST_ITERATIONS) {
+            let enough = if iteration + 1 < MOST_ITERATIONS { FRICTION } else { ROUGH };
+            if self.take(&change, share, enough) {
                 return true;
             }
         }
@@ -139,44 +143,50 @@ impl Stack {
         share
     }
 
-    /// Makes a share of a change. Tells whether that was all there is to do.
-    fn take(&mut self, change: &[Part], share: f64, is_last: bool) -> bool {
-        let mut is_done = true;
-        let Self { contacts, velocities, system, .. } = self;
-        // All gains first: they are told from velocities.
-        let gains: Vec<[f64; 3]> = contacts
-            .iter()
-            .flat_map(|contact| contact.points.iter().map(|point| contact.gains(point, velocities, change)))
-            .collect();
+    /// Makes a share of a change. Tells whether that was all there is to do; `enough` is by what share of the normal
+    /// multiplier friction may still change.
+    fn take(&mut self, change: &[Part], share: f64, enough: f64) -> bool {
+        let Self { contacts, velocities, .. } = self;
+        let gains = |contact: &Contact| {
+            let of_point = |point: &Point| contact.gains(point, velocities, change);
+            contact.points.iter().map(of_point).collect::<Vec<_>>()
+        };
+        // All before any is made: they are told from velocities.
+        let gains: Vec<Vec<[f64; 3]>> = contacts.iter().map(gains).collect();
         for (velocity, change) in velocities.iter_mut().zip(change) {
             velocity.iter_mut().zip(change).for_each(|(number, change)| *number += share * change);
         }
-        let mut gains = gains.into_iter();
-        for contact in contacts {
-            let (ends, friction) = (contact.ends, contact.friction);
-            for (point, gain) in contact.points.iter_mut().zip(gains.by_ref()) {
+        let mut is_done = true;
+        for (index, gains) in gains.iter().enumerate() {
+            for (k, gain) in gains.iter().enumerate() {
+                let Contact { friction, points, .. } = &mut self.contacts[index];
+                let point = &mut points[k];
                 let reached = [0, 1, 2].map(|k| point.multipliers[k] + share * gain[k]);
                 let lets_go = point.multipliers[0] + gain[0] < 0.0
-                    && reached[0] <= 1e-6 * point.multipliers[0].max(gain[0].abs());
-                let kept = point.settle(reached, lets_go, friction);
+                    && reached[0] <= ROUNDING * point.multipliers[0].max(gain[0].abs());
+                let kept = point.settle(reached, lets_go, *friction);
                 let cut = (kept[1] - reached[1]).abs().max((kept[2] - reached[2]).abs());
-                let enough = if is_last { ROUGH } else { FRICTION };
                 is_done &= !lets_go && cut <= enough * kept[0];
-                for (k, (kept, reached)) in kept.into_iter().zip(reached).enumerate() {
-                    if kept == reached {
-                        continue;
-                    }
-                    for (end, side) in ends.iter().zip(&point.lines[k]) {
-                        let (velocity, inverse) = (&mut velocities[*end as usize], system.inverse_mass(*end));
-                        for ((number, side), inverse) in velocity.iter_mut().zip(side).zip(inverse) {
-                            *number += (kept - reached) * side * inverse;
-                        }
-                    }
-                }
                 point.multipliers = kept;
+                self.push(index, k, [0, 1, 2].map(|k| kept[k] - reached[k]));
             }
         }
         is_done
+    }
+
+    /// Applies impulses along the rows of a point.
+    fn push(&mut self, contact: usize, point: usize, impulses: [f64; 3]) {
+        let Contact { ends, points, .. } = &self.contacts[contact];
+        for (line, impulse) in points[point].lines.iter().zip(impulses).filter(|(_, impulse)| *impulse != 0.0)
+        {
+            for (end, side) in ends.iter().zip(line) {
+                let (velocity, inverse) =
+                    (&mut self.velocities[*end as usize], self.system.inverse_mass(*end));
+                for ((number, side), inverse) in velocity.iter_mut().zip(side).zip(inverse) {
+                    *number += impulse * side * inverse;
+                }
+            }
+        }
     }
 }
 
@@ -194,16 +204,6 @@ impl Contact {
 }
 
 impl Point {
-    /// The Jacobians of the rows that are held, and what they are to lead to.
-    fn held_rows(&self) -> impl Iterator<Item = (&[Part; 2], f64)> {
-        let count = match self.hold {
-            Hold::Off => 0,
-            Hold::Slides => 1,
-            Hold::Sticks => 3,
-        };
-        self.lines.iter().zip(self.targets).take(count)
-    }
-
     /// What is left of multipliers: none of what has let go, and friction within its cone; on its edge once it slides.
     fn settle(&mut self, [normal, p, q]: [f64; 3], lets_go: bool, friction: f64) -> [f64; 3] {
         self.has_let_go |= lets_go;
