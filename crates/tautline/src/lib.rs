@@ -128,7 +128,7 @@ pub use joint::{
 pub use measure::{Penetration, Strain};
 pub use query::{CastHit, PointHit, QueryFilter, RayHit};
 pub use report::{Fault, PhaseSeconds, StepReport};
-pub use settings::{BroadPhase, Ordering, Relaxation, Settings, Sleep, SquareRoot};
+pub use settings::{BroadPhase, ClothSolver, Ordering, Relaxation, Settings, Sleep, SquareRoot};
 pub use shape::Shape;
 pub use simd::Instructions;
 pub use view::BodyView;

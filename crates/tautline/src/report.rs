@@ -45,6 +45,8 @@ pub struct PhaseSeconds {
     pub relax: f64,
     /// Solving for rigid bodies.
     pub solve: f64,
+    /// All small steps of cloth and rope.
+    pub soft: f64,
 }
 
 impl std::ops::AddAssign for PhaseSeconds {
@@ -55,6 +57,7 @@ impl std::ops::AddAssign for PhaseSeconds {
         self.separate += other.separate;
         self.relax += other.relax;
         self.solve += other.solve;
+        self.soft += other.soft;
     }
 }
 
@@ -69,6 +72,7 @@ pub(crate) enum Phase {
     Separate,
     Relax,
     Solve,
+    Soft,
 }
 
 /// Adds up time by phase.
@@ -95,6 +99,7 @@ impl<'a, 'b> Stopwatch<'a, 'b> {
             Phase::Separate => &mut seconds.separate,
             Phase::Relax => &mut seconds.relax,
             Phase::Solve => &mut seconds.solve,
+            Phase::Soft => &mut seconds.soft,
         };
         *sum += now - self.last;
         self.last = now;

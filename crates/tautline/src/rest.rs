@@ -5,7 +5,7 @@ use glam::Vec3;
 use crate::body::{Body, Frame, Motion};
 use crate::collision::{Aabb, Contact};
 use crate::particles::Particles;
-use crate::settings::Sleep;
+use crate::settings::{ClothSolver, Sleep};
 
 /// Wakes sleeping bodies that are touched by what has moved further than `reach` (m) in this substep. What gravity
 /// gave the touching body in this very substep does not count: a body at rest on a sleeping one has it all the time.
@@ -81,15 +81,15 @@ pub(crate) fn put_to_sleep(
     bodies: &mut [Body],
     particles: &mut Particles,
     contacts: &[Contact],
-    sleep: Sleep,
+    (sleep, cloth): (Sleep, ClothSolver),
     dt: f32,
 ) {
-    for body in bodies.iter_mut().filter(|body| body.is_awake_matter()) {
+    for body in bodies.iter_mut().filter(|body| body.is_relaxed(cloth)) {
         note_drift(body, &particles.position, sleep, dt);
     }
     let restless = |body: &Body| body.is_awake() && body.rest.still_for < sleep.seconds;
     let mut may_sleep: Vec<bool> =
-        bodies.iter().map(|body| body.is_awake_matter() && !restless(body)).collect();
+        bodies.iter().map(|body| body.is_relaxed(cloth) && !restless(body)).collect();
     for contact in contacts {
         let (a, b) = (contact.body_a as usize, contact.body_b as usize);
         may_sleep[a] &= !restless(&bodies[b]);

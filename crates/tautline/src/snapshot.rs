@@ -13,6 +13,7 @@ use crate::particles::Particles;
 use crate::settings::Settings;
 use crate::shape::Shape;
 use crate::slots::Slots;
+use crate::solver::soft::SoftSolver;
 use crate::solver::substep::{Kept, RigidSolver};
 use crate::world::{Grabs, Scratch, World};
 
@@ -149,7 +150,21 @@ impl Stored {
         let rigid = RigidSolver::restore(rigid, &bodies, &joints)
             .ok_or_else(|| refuse("its contacts disagree with its bodies"))?;
         let (index, scratch) = (OnceLock::new(), Scratch::default());
-        Ok(World { settings, particles, bodies, slots, pairs, joints, rigid, grabs, index, time, scratch })
+        let soft = SoftSolver::default();
+        Ok(World {
+            settings,
+            particles,
+            bodies,
+            slots,
+            pairs,
+            joints,
+            rigid,
+            soft,
+            grabs,
+            index,
+            time,
+            scratch,
+        })
     }
 }
 

@@ -8,7 +8,9 @@ use crate::error::{Error, within};
 use crate::particles::VerletStep;
 use crate::report::{Clock, Fault, Phase, StepReport, Stopwatch};
 use crate::rest::{put_to_sleep, wake_touched};
+use crate::settings::ClothSolver;
 use crate::solver::paper::{relax_bodies, separate};
+use crate::solver::soft::wake_soft;
 use crate::world::{Scratch, World};
 
 /// How many times faster than what puts a body to sleep is what wakes it.
@@ -38,19 +40,27 @@ impl World {
         let mut watch = Stopwatch::start(clock);
         let h = dt / self.settings.substeps as f32;
         self.begin_rigid(h, &mut report, &mut watch);
-        let has_matter = self.bodies.iter().any(Body::is_awake_matter);
+        let cloth = self.settings.cloth;
+        let has_matter = self.bodies.iter().any(|body| body.is_relaxed(cloth));
         self.scratch.contacts.clear();
         let lent = self.lend_weight();
+        if cloth == ClothSolver::SmallSteps {
+            wake_soft(&mut self.bodies, &self.particles, self.settings.sleep);
+            self.soft.begin(&self.bodies, &self.particles, &self.settings, h);
+        }
         for index in 0..self.settings.substeps {
             self.pull_grabs(h, (index + 1) as f32 / self.settings.substeps as f32);
             self.rigid.substep(&self.settings, h, index == 0);
             watch.lap(Phase::Solve);
+            self.soft.substep(&self.bodies, &mut self.rigid, &self.settings, h);
+            watch.lap(Phase::Soft);
             if has_matter {
                 self.substep(h, &mut report, &mut watch);
             }
         }
         self.rest_grabs(&lent);
         self.finish_rigid(h, &mut report);
+        self.finish_soft(h, &mut report);
         watch.lap(Phase::Integrate);
         self.rest(dt);
         self.particles.clear_forces();
@@ -93,6 +103,18 @@ impl World {
         self.finish_joints(states);
     }
 
+    /// Writes what the substeps made of cloth and rope. What is not finite any more is frozen where it was.
+    fn finish_soft(&mut self, h: f32, report: &mut StepReport) {
+        let Self { soft, bodies, particles, slots, .. } = self;
+        for (index, particle) in soft.finish(bodies, particles, h) {
+            let body = &mut bodies[index];
+            particles.displacement[body.particles.clone()].fill(Vec3::ZERO);
+            particles.inverse_mass[body.particles.clone()].fill(0.0);
+            body.freeze();
+            report.faults.push(Fault { body: slots.handle(index), particle });
+        }
+    }
+
     fn substep(&mut self, h: f32, report: &mut StepReport, watch: &mut Stopwatch<'_, '_>) {
         self.integrate(h, report);
         watch.lap(Phase::Integrate);
@@ -107,13 +129,8 @@ impl World {
             report.contacts += self.separate_again(h);
         }
         watch.lap(Phase::Separate);
-        let counts = relax_bodies(
-            &mut self.bodies,
-            &mut self.particles,
-            &self.scratch.moved,
-            &self.settings.relaxation,
-            h,
-        );
+        let counts =
+            relax_bodies(&mut self.bodies, &mut self.particles, &self.scratch.moved, &self.settings, h);
         watch.lap(Phase::Relax);
         report.pairs += self.pairs.pairs.len();
         report.visits += counts.visits;
@@ -126,7 +143,8 @@ impl World {
         let damping = 1.0 / (1.0 + self.settings.damping * h);
         let store = &mut self.particles;
         self.scratch.start.clone_from(&store.position);
-        for body in self.bodies.iter_mut().filter(|body| body.is_awake_matter()) {
+        let cloth = self.settings.cloth;
+        for body in self.bodies.iter_mut().filter(|body| body.is_relaxed(cloth)) {
             let ratio = h / body.displacement_time();
             let step = VerletStep { keep: ratio * damping, kick: h * (h + body.previous_step) / 2.0 };
             body.previous_step = h;
@@ -143,7 +161,8 @@ impl World {
     }
 
     fn refit_trees(&mut self) {
-        for body in self.bodies.iter_mut().filter(|body| body.is_awake()) {
+        let cloth = self.settings.cloth;
+        for body in self.bodies.iter_mut().filter(|body| body.is_relaxed(cloth)) {
             body.refit_tree(&self.particles.position);
         }
     }
@@ -152,7 +171,8 @@ impl World {
         let scratch = &mut self.scratch;
         scratch.candidates.clear();
         for (index, body) in self.bodies.iter().enumerate() {
-            if matches!(body.substance, Substance::HalfSpace(_) | Substance::Rigid(_)) {
+            let is_elsewhere = body.is_soft() && self.settings.cloth == ClothSolver::SmallSteps;
+            if is_elsewhere || matches!(body.substance, Substance::HalfSpace(_) | Substance::Rigid(_)) {
                 continue;
             }
             let bounds = Aabb::around(&self.particles.position[body.particles.clone()], body.reach());
@@ -163,7 +183,7 @@ impl World {
     }
 
     fn find_contacts(&mut self) {
-        let scene = Scene { bodies: &self.bodies, particles: &self.particles };
+        let scene = Scene { bodies: &self.bodies, particles: &self.particles, cloth: self.settings.cloth };
         self.scratch.narrow_phase.find_contacts(scene, &mut self.pairs.pairs, &mut self.scratch.contacts);
     }
 
@@ -193,7 +213,7 @@ impl World {
     fn separate_again(&mut self, h: f32) -> usize {
         let limit = self.separation_limit(h);
         let Scratch { narrow_phase, more_contacts, moved, .. } = &mut self.scratch;
-        let scene = Scene { bodies: &self.bodies, particles: &self.particles };
+        let scene = Scene { bodies: &self.bodies, particles: &self.particles, cloth: self.settings.cloth };
         narrow_phase.find_rigid_contacts(scene, &mut self.pairs.pairs, more_contacts);
         separate(more_contacts, &self.bodies, &mut self.particles, moved, limit)
     }
@@ -215,10 +235,13 @@ impl World {
     }
 
     fn rest(&mut self, dt: f32) {
+        let cloth = self.settings.cloth;
+        self.soft.note_rest(&mut self.bodies, &self.particles, dt);
         match self.settings.sleep {
             Some(sleep) => {
-                let Self { bodies, particles, joints, rigid, scratch, .. } = self;
-                put_to_sleep(bodies, particles, &scratch.contacts, sleep, dt);
+                let Self { bodies, particles, joints, rigid, soft, scratch, .. } = self;
+                put_to_sleep(bodies, particles, &scratch.contacts, (sleep, cloth), dt);
+                soft.put_to_sleep(bodies, particles, sleep, dt);
                 rigid.put_to_sleep((bodies, particles, joints), sleep, dt);
             }
             None => self.bodies.iter_mut().for_each(Body::wake),

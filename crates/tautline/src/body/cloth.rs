@@ -2,7 +2,7 @@
 
 use glam::{Quat, Vec3};
 
-use super::deformable::{BuiltDeformable, Deformable, Parts};
+use super::deformable::{BuiltDeformable, Deformable, GridShape, Parts};
 use crate::constraint::{AngleLimit, Bending, Stick};
 use crate::error::{Error, all_coordinates, coordinates, positive, within};
 use crate::geometry::sphere_tree::Feature;
@@ -153,7 +153,16 @@ impl Cloth {
             Surface::Grid { columns, rows, .. } => grid_cells(columns, rows),
             Surface::Mesh(_) => mesh.triangles.iter().map(|&t| Feature::Triangle(t)).collect(),
         };
+        let grid = match self.surface {
+            Surface::Grid { columns, rows, width, depth } => {
+                let edges = [width / (columns - 1) as f32, depth / (rows - 1) as f32];
+                Some(GridShape { columns, rows, edges })
+            }
+            Surface::Mesh(_) => None,
+        };
         let parts = Parts {
+            grid,
+            rigidity: None,
             bendings: bendings(&half_edges, rest, self.bending_compliance),
             triangles: mesh.triangles,
             sticks,

@@ -16,6 +16,10 @@ pub(crate) struct Deformable {
     pub(crate) angles: Vec<Angle>,
     pub(crate) bendings: Vec<Bending>,
     pub(crate) tree: LayeredTree,
+    /// The rectangle it is, if it is one.
+    pub(crate) grid: Option<GridShape>,
+    /// Flexural rigidity, in N m; `None` = limp.
+    pub(crate) rigidity: Option<f32>,
     /// How far from a solid its particles and leaf centres are kept, in m.
     pub(crate) thickness: f32,
     /// `None` if it passes through itself.
@@ -25,12 +29,36 @@ pub(crate) struct Deformable {
     pub(crate) multipliers: Vec<f32>,
 }
 
+/// A rectangle of particles, row by row.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(crate) struct GridShape {
+    pub(crate) columns: u32,
+    pub(crate) rows: u32,
+    /// Between neighbours in a row and in a column, in m.
+    pub(crate) edges: [f32; 2],
+}
+
+impl GridShape {
+    /// How far every particle is from one, along the flat sheet, in m.
+    pub(crate) fn distances(&self, from: u32) -> Vec<f32> {
+        let offset = |a: u32, b: u32, edge: f32| (a as f32 - b as f32) * edge;
+        let distance = |particle: u32| {
+            let x = offset(particle % self.columns, from % self.columns, self.edges[0]);
+            let y = offset(particle / self.columns, from / self.columns, self.edges[1]);
+            (x * x + y * y).sqrt()
+        };
+        (0..self.columns * self.rows).map(distance).collect()
+    }
+}
+
 /// What a builder knows of a deformable body.
 pub(crate) struct Parts {
     pub(crate) triangles: Vec<[u32; 3]>,
     pub(crate) sticks: Vec<Stick>,
     pub(crate) angles: Vec<Angle>,
     pub(crate) bendings: Vec<Bending>,
+    pub(crate) grid: Option<GridShape>,
+    pub(crate) rigidity: Option<f32>,
     pub(crate) leaves: Vec<Feature>,
     /// Added to the radius of every leaf sphere, in m.
     pub(crate) leaf_margin: f32,
@@ -52,8 +80,28 @@ impl Deformable {
     pub(crate) fn new(parts: Parts, rest: &[Vec3]) -> Result<Self, Error> {
         let tree = LayeredTree::new(&parts.leaves, rest, parts.leaf_margin)?;
         let neighbours = parts.self_collision.then(|| Neighbours::of(&tree));
-        let Parts { triangles, sticks, angles, bendings, thickness, .. } = parts;
-        Ok(Self { triangles, sticks, angles, bendings, tree, thickness, neighbours, multipliers: Vec::new() })
+        let Parts { triangles, sticks, angles, bendings, grid, rigidity, thickness, .. } = parts;
+        Ok(Self {
+            triangles,
+            sticks,
+            angles,
+            bendings,
+            grid,
+            rigidity,
+            tree,
+            thickness,
+            neighbours,
+            multipliers: Vec::new(),
+        })
+    }
+
+    /// Particles along its longer side, about.
+    pub(crate) fn fineness(&self, particles: usize) -> usize {
+        match &self.grid {
+            Some(grid) => grid.columns.max(grid.rows) as usize,
+            None if self.is_rope() => 0,
+            None => (particles as f32).sqrt() as usize,
+        }
     }
 
     pub(crate) fn is_rope(&self) -> bool {

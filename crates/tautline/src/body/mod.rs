@@ -17,6 +17,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::settings::ClothSolver;
 
 pub use cloth::{Cloth, Corner};
 pub use half_space::HalfSpace;
@@ -103,13 +104,15 @@ pub(crate) struct Rest {
     pub(crate) asleep: bool,
     /// For how long its particles have been near `reference`, in s.
     pub(crate) still_for: f32,
+    /// For how long it has been slow while it leant on something, in s: of cloth and rope.
+    pub(crate) calm_for: f32,
     /// Where its particles were when it was last found moving; empty until the first step.
     pub(crate) reference: Vec<Vec3>,
 }
 
 impl Body {
     pub(crate) fn new(particles: Range<usize>, substance: Substance, surface: Surface, fixed: bool) -> Self {
-        let rest = Rest { asleep: false, still_for: 0.0, reference: Vec::new() };
+        let rest = Rest { asleep: false, still_for: 0.0, calm_for: 0.0, reference: Vec::new() };
         Self { particles, substance, surface, fixed, previous_step: 0.0, rest }
     }
 
@@ -147,6 +150,16 @@ impl Body {
     /// Whether it is awake and made of particles that move by themselves.
     pub(crate) fn is_awake_matter(&self) -> bool {
         self.is_awake() && !self.is_rigid()
+    }
+
+    /// Whether it is cloth or rope.
+    pub(crate) fn is_soft(&self) -> bool {
+        matches!(self.substance, Substance::Deformable(_))
+    }
+
+    /// Whether it is awake and moved by the paper's solver, given which one moves cloth and rope.
+    pub(crate) fn is_relaxed(&self, cloth: ClothSolver) -> bool {
+        self.is_awake_matter() && (cloth == ClothSolver::Paper || !self.is_soft())
     }
 
     /// Whether a step moves it.
@@ -192,7 +205,7 @@ impl Body {
             Substance::HalfSpace(_) => count == 0 && self.fixed,
         };
         self.surface.validate()?;
-        let numbers = [self.previous_step, self.rest.still_for];
+        let numbers = [self.previous_step, self.rest.still_for, self.rest.calm_for];
         let sound = size_fits
             && self.particles.start == start
             && self.particles.end >= start

@@ -112,6 +112,8 @@ impl Rope {
             sticks,
             angles: self.angles(),
             bendings: Vec::new(),
+            grid: None,
+            rigidity: None,
             leaves: (0..last).map(|i| Feature::Segment([i, i + 1])).collect(),
             leaf_margin: self.radius,
             thickness: self.radius,

@@ -12,6 +12,7 @@ use crate::geometry::sphere_tree::{DescentStack, WrappedSpheres, descend_pair, d
 use crate::geometry::support::Points;
 use crate::parallel;
 use crate::particles::Particles;
+use crate::settings::ClothSolver;
 
 /// Finds contacts. It holds only scratch memory, so that a step allocates nothing once that has grown.
 #[derive(Debug, Clone, Default)]
@@ -30,6 +31,7 @@ pub(crate) struct NarrowPhase {
 pub(crate) struct Scene<'a> {
     pub(crate) bodies: &'a [Body],
     pub(crate) particles: &'a Particles,
+    pub(crate) cloth: ClothSolver,
 }
 
 impl<'a> Scene<'a> {
@@ -253,7 +255,7 @@ fn half_space_contacts(scene: Scene<'_>, contacts: &mut Vec<Contact>) {
             _ => None,
         })
     };
-    for (index, body) in scene.bodies.iter().enumerate().filter(|(_, body)| body.is_awake_matter()) {
+    for (index, body) in scene.bodies.iter().enumerate().filter(|(_, body)| body.is_relaxed(scene.cloth)) {
         let thickness = match &body.substance {
             Substance::Deformable(deformable) => deformable.thickness,
             _ => 0.0,

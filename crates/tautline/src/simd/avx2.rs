@@ -5,7 +5,8 @@
 //! All `unsafe` here is of one kind: calling AVX instructions, which is undefined where the processor lacks them.
 //! [`Avx2`] is private to this module and values of it are made only by its `Lanes` methods; those are reached
 //! only from [`run`], which is the one place that names the type, after [`is_available`]. Loads and stores are of
-//! a [`Row`], which is 32 bytes long.
+//! a [`Row`], which is 32 bytes long
+//! and so aligned, or of eight numbers, with the instructions that ask for no alignment.
 #![allow(unsafe_code)]
 
 use std::arch::x86_64::*;
@@ -70,6 +71,14 @@ impl Lanes for Avx2 {
     #[inline(always)]
     fn store(self, row: &mut Row) {
         unsafe { _mm256_store_ps(row.0.as_mut_ptr(), self.0) }
+    }
+    #[inline(always)]
+    fn read(numbers: &[f32; LANES]) -> Self {
+        Self(unsafe { _mm256_loadu_ps(numbers.as_ptr()) })
+    }
+    #[inline(always)]
+    fn write(self, numbers: &mut [f32; LANES]) {
+        unsafe { _mm256_storeu_ps(numbers.as_mut_ptr(), self.0) }
     }
     #[inline(always)]
     fn sqrt(self) -> Self {

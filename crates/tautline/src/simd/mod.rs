@@ -14,7 +14,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use serde::{Deserialize, Serialize};
 
-pub(crate) use vector::{Matrix3x8, Vec3x8};
+pub(crate) use vector::{Matrix3x8, Vec3x8, read, write};
 
 /// How many numbers a group has.
 pub(crate) const LANES: usize = 8;
@@ -47,6 +47,9 @@ pub(crate) trait Lanes:
     fn splat(value: f32) -> Self;
     fn load(row: &Row) -> Self;
     fn store(self, row: &mut Row);
+    /// Eight numbers that follow each other anywhere in memory.
+    fn read(numbers: &[f32; LANES]) -> Self;
+    fn write(self, numbers: &mut [f32; LANES]);
     fn sqrt(self) -> Self;
     /// A mask of the lanes in which `self` is greater.
     fn greater(self, other: Self) -> Self;

@@ -39,13 +39,20 @@ impl Lanes for Portable {
     }
     #[inline(always)]
     fn load(row: &Row) -> Self {
-        let [a, b, c, d, e, f, g, h] = row.0;
-        Self(f32x4::new([a, b, c, d]), f32x4::new([e, f, g, h]))
+        Self::read(&row.0)
     }
     #[inline(always)]
     fn store(self, row: &mut Row) {
-        row.0[..4].copy_from_slice(&self.0.to_array());
-        row.0[4..].copy_from_slice(&self.1.to_array());
+        self.write(&mut row.0);
+    }
+    #[inline(always)]
+    fn read(&[a, b, c, d, e, f, g, h]: &[f32; LANES]) -> Self {
+        Self(f32x4::new([a, b, c, d]), f32x4::new([e, f, g, h]))
+    }
+    #[inline(always)]
+    fn write(self, numbers: &mut [f32; LANES]) {
+        numbers[..4].copy_from_slice(&self.0.to_array());
+        numbers[4..].copy_from_slice(&self.1.to_array());
     }
     #[inline(always)]
     fn sqrt(self) -> Self {

@@ -53,6 +53,14 @@ impl Lanes for Scalar {
         row.0 = self.0;
     }
     #[inline(always)]
+    fn read(numbers: &[f32; LANES]) -> Self {
+        Self(*numbers)
+    }
+    #[inline(always)]
+    fn write(self, numbers: &mut [f32; LANES]) {
+        *numbers = self.0;
+    }
+    #[inline(always)]
     fn sqrt(self) -> Self {
         Self(self.0.map(f32::sqrt))
     }

@@ -4,7 +4,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 use glam::Vec3;
 
-use super::{Lanes, Row};
+use super::{LANES, Lanes, Row};
 
 /// Eight vectors.
 #[derive(Clone, Copy)]
@@ -41,6 +41,19 @@ impl<L: Lanes> Vec3x8<L> {
         self.x.store(&mut rows[0]);
         self.y.store(&mut rows[1]);
         self.z.store(&mut rows[2]);
+    }
+
+    /// The eight vectors from number `at` on, out of all x, all y and all z.
+    #[inline(always)]
+    pub(crate) fn read(numbers: &[Vec<f32>; 3], at: usize) -> Self {
+        Self::new(read(&numbers[0], at), read(&numbers[1], at), read(&numbers[2], at))
+    }
+
+    #[inline(always)]
+    pub(crate) fn write(self, numbers: &mut [Vec<f32>; 3], at: usize) {
+        write(self.x, &mut numbers[0], at);
+        write(self.y, &mut numbers[1], at);
+        write(self.z, &mut numbers[2], at);
     }
 
     #[inline(always)]
@@ -108,6 +121,23 @@ impl<L: Lanes> Neg for Vec3x8<L> {
     #[inline(always)]
     fn neg(self) -> Self {
         Self::new(-self.x, -self.y, -self.z)
+    }
+}
+
+/// The eight numbers from number `at` on; 0 where there are not as many.
+#[inline(always)]
+pub(crate) fn read<L: Lanes>(numbers: &[f32], at: usize) -> L {
+    match numbers[at..].first_chunk::<LANES>() {
+        Some(eight) => L::read(eight),
+        None => L::splat(0.0),
+    }
+}
+
+/// The reverse; nothing where there are not as many.
+#[inline(always)]
+pub(crate) fn write<L: Lanes>(lanes: L, numbers: &mut [f32], at: usize) {
+    if let Some(eight) = numbers[at..].first_chunk_mut::<LANES>() {
+        lanes.write(eight);
     }
 }
 

@@ -110,6 +110,7 @@ impl World {
         self.slots.remove(index);
         self.pairs.remove_body(index as u32);
         self.rigid.remove_body(index);
+        self.soft.invalidate();
         let let_go = self.joints.remove_body(index as u32);
         for body in &mut self.bodies[index..] {
             body.particles = body.particles.start - range.len()..body.particles.end - range.len();

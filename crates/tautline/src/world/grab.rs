@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::World;
 use crate::body::{Body, BodyKind, Motion};
 use crate::error::{Error, coordinates, within};
+use crate::settings::ClothSolver;
 use crate::slots::{BodyHandle, Slots};
 
 /// Names a grab of a world until it is released or its body removed.
@@ -252,6 +253,14 @@ impl World {
                     let velocity = at.displacement / h + fall;
                     grab.grip.velocity_change(at.position - target, velocity, h) * h
                 }),
+                Place::Particle(particle)
+                    if body.is_soft() && self.settings.cloth == ClothSolver::SmallSteps =>
+                {
+                    if let Some((position, velocity)) = self.soft.particle(index, particle as usize, h) {
+                        let change = grab.grip.velocity_change(position - target, velocity + fall, h);
+                        self.soft.push(index, particle as usize, change.clamp_length_max(limit), h);
+                    }
+                }
                 Place::Particle(particle) if body.is_awake() => {
                     let (i, time) = (body.particles.start + particle as usize, body.displacement_time());
                     if self.particles.inverse_mass[i] > 0.0 {

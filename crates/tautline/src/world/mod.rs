@@ -21,6 +21,7 @@ use crate::rest::wake_around;
 use crate::settings::Settings;
 use crate::slots::Slots;
 use crate::solver::paper::Moved;
+use crate::solver::soft::SoftSolver;
 use crate::solver::substep::RigidSolver;
 
 pub use crate::slots::BodyHandle;
@@ -54,6 +55,7 @@ pub struct World {
     pub(crate) pairs: PairCache,
     pub(crate) joints: Joints,
     pub(crate) rigid: RigidSolver,
+    pub(crate) soft: SoftSolver,
     pub(crate) grabs: Grabs,
     /// What queries search, made when one is asked and forgotten when something moves.
     pub(crate) index: OnceLock<Index>,
@@ -91,6 +93,7 @@ impl World {
             pairs: PairCache::default(),
             joints: Joints::default(),
             rigid: RigidSolver::default(),
+            soft: SoftSolver::default(),
             grabs: Grabs::default(),
             index: OnceLock::new(),
             time: 0.0,
@@ -111,6 +114,7 @@ impl World {
         settings.validate()?;
         self.settings = settings;
         self.rigid.invalidate();
+        self.soft.invalidate();
         self.bodies.iter_mut().for_each(Body::wake);
         Ok(())
     }

@@ -7,7 +7,7 @@ use crate::constraint::{
 };
 use crate::parallel;
 use crate::particles::{Particles, ParticlesMut};
-use crate::settings::{Ordering, Relaxation};
+use crate::settings::{Ordering, Relaxation, Settings};
 
 /// What relaxation did: the paper's chart 9(c) plots `relaxations`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -31,7 +31,7 @@ pub(crate) fn relax_bodies(
     bodies: &mut [Body],
     particles: &mut Particles,
     moved: &[Option<Moved>],
-    settings: &Relaxation,
+    settings: &Settings,
     h: f32,
 ) -> Counts {
     let views = particles.split_mut(bodies.iter().map(|body| body.particles.clone()));
@@ -39,11 +39,11 @@ pub(crate) fn relax_bodies(
         .iter_mut()
         .zip(views)
         .zip(moved)
-        .filter(|((body, _), _)| body.is_awake())
+        .filter(|((body, _), _)| body.is_relaxed(settings.cloth))
         .map(|((body, particles), &moved)| Task { body, particles, moved, counts: Counts::default() })
         .collect();
     let particle_count: usize = tasks.iter().map(|task| task.particles.position.len()).sum();
-    parallel::for_each(&mut tasks, particle_count > WORTHWHILE, |task| task.relax(settings, h));
+    parallel::for_each(&mut tasks, particle_count > WORTHWHILE, |task| task.relax(&settings.relaxation, h));
     tasks.iter().fold(Counts::default(), |mut sum, task| {
         sum += task.counts;
         sum

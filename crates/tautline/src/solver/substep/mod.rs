@@ -19,6 +19,7 @@ mod held;
 mod island;
 mod joint;
 mod lineup;
+mod outside;
 mod pairs;
 mod prepare;
 mod pull;
@@ -46,6 +47,8 @@ use joint::JointSolver;
 use lineup::{Entry, Lineup, NOBODY, Role};
 use pairs::Pairs;
 use stack::{Aim, Stacks};
+
+pub(crate) use outside::{Change, rotation};
 
 /// What a snapshot keeps: all that the next step depends on and that is not in the particles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

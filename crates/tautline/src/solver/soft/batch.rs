@@ -1,0 +1,89 @@
+//! Sticks in any order, in batches of eight that share no particle: for cloth that is no rectangular grid, and nets.
+
+use super::points::Points;
+use super::stick::{Span, Spans, pull};
+use crate::simd::{LANES, Lanes, Row, Vec3x8};
+
+/// Eight sticks: where they begin and end, and their spans. What is missing in the last has no mass on either side.
+#[derive(Debug, Clone)]
+struct Batch {
+    ends: [[u32; LANES]; 2],
+    spans: [Row; 3],
+    count: usize,
+}
+
+/// All sticks of a piece.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Batches(Vec<Batch>);
+
+impl Batches {
+    /// Of sticks between places. Each goes to the first colour in which none has an end of it (greedy colouring).
+    pub(super) fn new(sticks: &[([u32; 2], Span)]) -> Self {
+        let mut colours: Vec<Vec<usize>> = Vec::new();
+        let places = sticks.iter().flat_map(|(ends, _)| ends).max().map_or(0, |&most| most as usize + 1);
+        let mut taken: Vec<u64> = vec![0; places];
+        for (number, (ends, _)) in sticks.iter().enumerate() {
+            let used = taken[ends[0] as usize] | taken[ends[1] as usize];
+            // What has no colour left goes alone.
+            let colour = used.trailing_ones().min(63) as usize;
+            if colour >= colours.len() {
+                colours.resize(colour + 1, Vec::new());
+            }
+            colours[colour].push(number);
+            ends.iter().for_each(|&end| taken[end as usize] |= 1 << colour);
+        }
+        let mut batches = Vec::new();
+        for (colour, members) in colours.iter().enumerate() {
+            let size = if colour == 63 { 1 } else { LANES };
+            batches.extend(members.chunks(size).map(|chunk| Batch::new(sticks, chunk)));
+        }
+        Self(batches)
+    }
+
+    /// Relaxes every stick once.
+    #[inline(always)]
+    pub(super) fn sweep<L: Lanes>(&self, points: &mut Points, masses: &[f32]) {
+        for batch in &self.0 {
+            batch.relax::<L>(points, masses);
+        }
+    }
+}
+
+impl Batch {
+    fn new(sticks: &[([u32; 2], Span)], members: &[usize]) -> Self {
+        let mut batch = Self { ends: [[0; LANES]; 2], spans: [Row::ZERO; 3], count: members.len() };
+        for (lane, &member) in members.iter().enumerate() {
+            let ([a, b], span) = sticks[member];
+            (batch.ends[0][lane], batch.ends[1][lane]) = (a, b);
+            let numbers = [span.low, span.high, span.compliance];
+            batch.spans.iter_mut().zip(numbers).for_each(|(row, number)| row.0[lane] = number);
+        }
+        batch
+    }
+
+    #[inline(always)]
+    fn relax<L: Lanes>(&self, points: &mut Points, masses: &[f32]) {
+        let (mut between, mut free) = ([Row::ZERO; 3], [Row::ZERO; 2]);
+        for lane in 0..self.count {
+            let (a, b) = (self.ends[0][lane] as usize, self.ends[1][lane] as usize);
+            for (row, numbers) in between.iter_mut().zip(&points.position) {
+                row.0[lane] = numbers[b] - numbers[a];
+            }
+            (free[0].0[lane], free[1].0[lane]) = (masses[a], masses[b]);
+        }
+        let [low, high, compliance] = &self.spans;
+        let spans = Spans { low: L::load(low), high: L::load(high), compliance: L::load(compliance) };
+        let [first, second] = [L::load(&free[0]), L::load(&free[1])];
+        let pull = pull(Vec3x8::load(&between), [first, second], spans);
+        let mut shifts = [[Row::ZERO; 3]; 2];
+        (pull * first).store(&mut shifts[0]);
+        (pull * second).store(&mut shifts[1]);
+        for lane in 0..self.count {
+            let (a, b) = (self.ends[0][lane] as usize, self.ends[1][lane] as usize);
+            for (axis, numbers) in points.position.iter_mut().enumerate() {
+                numbers[a] += shifts[0][axis].0[lane];
+                numbers[b] -= shifts[1][axis].0[lane];
+            }
+        }
+    }
+}

@@ -1,0 +1,331 @@
+//! Cloth against itself and other cloth: pairs of particles kept apart.
+//!
+//! Particles closer than about the length of an edge push each other apart, so that nothing gets between two of them. The
+//! pairs are listed by pairs of tiles, each with its own margin: a list is made anew only when its two tiles have moved
+//! against each other by more than that. Tiles beside each other that face one way have none.
+//!
+//! Every list is in the order of its particles, and the lists in that of their tiles, so that which pairs are near decides
+//! what happens, and not when lists were made.
+
+use super::patch::Cone;
+use super::points::{Coordinates, Points, get};
+use super::tile::{Bounds, Tile, inside};
+use crate::constraint::Stick;
+use crate::simd::{Lanes, Vec3x8};
+use glam::Vec3;
+
+/// Tiles that bend less than this (75°) together do not touch each other. Its cosine.
+const SMOOTH: f32 = 0.258_819_05;
+/// How far beyond the thickness pairs are listed, in thicknesses.
+const MARGIN: f32 = 0.5;
+/// Motion until the next look is expected to be as much as that since the last, times this.
+const HASTE: f32 = 1.5;
+
+/// A cloth among others.
+#[derive(Debug, Clone)]
+pub(super) struct Member {
+    pub(super) meets_itself: bool,
+    /// How far its particles are kept apart, in m.
+    pub(super) distance: f32,
+    pub(super) exempt: Exempt,
+    /// What share of their motion against each other its particles lose in a small step when they touch.
+    pub(super) friction: f32,
+}
+
+/// Which particles of a cloth do not push each other, being neighbours.
+#[derive(Debug, Clone)]
+pub(super) enum Exempt {
+    /// Those no further apart than this in the material, in m: of sheets, whose `material` is known.
+    Within(f32),
+    /// For each particle, by place from the first on, those of higher place, ascending.
+    Listed(usize, Vec<Vec<u32>>),
+}
+
+impl Exempt {
+    /// Of particles at places from `start` on, with sticks between them: those no further than `distance` (m) along
+    /// sticks.
+    pub(super) fn along(sticks: &[Stick], count: usize, start: usize, distance: f32) -> Self {
+        let mut neighbours: Vec<Vec<(u32, f32)>> = vec![Vec::new(); count];
+        for stick in sticks {
+            neighbours[stick.a as usize].push((stick.b, stick.rest_length));
+            neighbours[stick.b as usize].push((stick.a, stick.rest_length));
+        }
+        let near = |from: u32| {
+            let mut found: Vec<(u32, f32)> = vec![(from, 0.0)];
+            let mut next = 0;
+            while let Some(&(particle, so_far)) = found.get(next) {
+                next += 1;
+                for &(neighbour, length) in &neighbours[particle as usize] {
+                    let is_new = found.iter().all(|(other, _)| *other != neighbour);
+                    if is_new && (so_far + length <= distance || so_far == 0.0) {
+                        found.push((neighbour, so_far + length));
+                    }
+                }
+            }
+            let later = found.into_iter().filter(|(particle, _)| *particle > from);
+            let mut places: Vec<u32> = later.map(|(particle, _)| particle + start as u32).collect();
+            places.sort_unstable();
+            places
+        };
+        Self::Listed(start, (0..count as u32).map(near).collect())
+    }
+}
+
+/// All cloth that may meet.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Meetings {
+    members: Vec<Member>,
+    tiles: Vec<Tile>,
+    /// By tile, the member it belongs to.
+    member_of: Vec<u32>,
+    /// Where particles are in the material, in m, by place.
+    pub(super) material: Coordinates,
+    boxes: Vec<Bounds>,
+    cones: Vec<Cone>,
+    /// How tiles have moved since the last look: bounds of what their particles did.
+    motions: Vec<Bounds>,
+    /// Positions at the last look.
+    base: Coordinates,
+    lists: Vec<List>,
+    spare: Vec<List>,
+}
+
+/// The pairs of two tiles.
+#[derive(Debug, Clone, Default)]
+struct List {
+    tiles: [u32; 2],
+    /// How far they have moved against each other since it was made, in m.
+    moved: f32,
+    distance: f32,
+    friction: f32,
+    pairs: Vec<[u32; 2]>,
+}
+
+impl Meetings {
+    pub(super) fn reset(&mut self, places: usize) {
+        self.members.clear();
+        self.tiles.clear();
+        self.member_of.clear();
+        self.lists.clear();
+        for numbers in &mut self.material {
+            numbers.clear();
+            numbers.resize(places, 0.0);
+        }
+    }
+
+    /// Adds a cloth.
+    pub(super) fn add(
+        &mut self,
+        tiles: &[Tile],
+        meets_itself: bool,
+        distance: f32,
+        exempt: Exempt,
+        friction: f32,
+    ) {
+        self.tiles.extend_from_slice(tiles);
+        self.member_of.resize(self.tiles.len(), self.members.len() as u32);
+        self.members.push(Member { meets_itself, distance, exempt, friction });
+        self.boxes.resize(self.tiles.len(), Bounds::EMPTY);
+        self.cones.resize(self.tiles.len(), Cone::ALL);
+        self.motions.resize(self.tiles.len(), Bounds::EMPTY);
+    }
+
+    /// Forgets all lists, so that the next ones follow from where all is.
+    pub(super) fn forget(&mut self, points: &Points) {
+        self.spare.append(&mut self.lists);
+        self.base.clone_from(&points.position);
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.members.is_empty()
+    }
+
+    /// The tile of this number, to be brought up to date.
+    #[inline(always)]
+    pub(super) fn update_tile<L: Lanes>(&mut self, tile: usize, points: &Points, cone: Cone) {
+        self.cones[tile] = cone;
+        self.boxes[tile] = self.tiles[tile].bounds::<L>(points);
+        self.motions[tile] = self.motion_of::<L>(tile, points);
+    }
+
+    /// Bounds of how the particles of a tile have moved since the last look, which this is.
+    #[inline(always)]
+    fn motion_of<L: Lanes>(&mut self, tile: usize, points: &Points) -> Bounds {
+        let mut low = Vec3x8::<L>::splat(Vec3::INFINITY);
+        let mut high = Vec3x8::<L>::splat(Vec3::NEG_INFINITY);
+        for &place in &self.tiles[tile].eights {
+            let place = place as usize;
+            let is_there = points.are_there::<L>(place);
+            let now = Vec3x8::<L>::read(&points.position, place);
+            let moved = now - Vec3x8::read(&self.base, place);
+            now.write(&mut self.base, place);
+            let below = Vec3x8::new(low.x.min(moved.x), low.y.min(moved.y), low.z.min(moved.z));
+            let above = Vec3x8::new(high.x.max(moved.x), high.y.max(moved.y), high.z.max(moved.z));
+            (low, high) = (Vec3x8::select(is_there, below, low), Vec3x8::select(is_there, above, high));
+        }
+        let low = -low;
+        Bounds {
+            low: -Vec3::new(low.x.largest(), low.y.largest(), low.z.largest()),
+            high: Vec3::new(high.x.largest(), high.y.largest(), high.z.largest()),
+        }
+    }
+
+    /// Brings all lists up to date. Tiles have been.
+    #[inline(always)]
+    pub(super) fn look<L: Lanes>(&mut self, points: &Points) {
+        let mut old = std::mem::take(&mut self.lists).into_iter().peekable();
+        let mut lists = Vec::new();
+        for a in 0..self.tiles.len() {
+            for b in a..self.tiles.len() {
+                let Some((distance, friction)) = self.may_meet(a, b) else { continue };
+                let tiles = [a as u32, b as u32];
+                while let Some(gone) = old.next_if(|list| list.tiles < tiles) {
+                    self.spare.push(gone);
+                }
+                let moved = self.relative_motion(a, b);
+                let mut list = match old.next_if(|list| list.tiles == tiles) {
+                    Some(list) => list,
+                    None => List { tiles, moved: f32::INFINITY, ..self.spare.pop().unwrap_or_default() },
+                };
+                list.moved += moved;
+                (list.distance, list.friction) = (distance, friction);
+                if list.moved + HASTE * moved > MARGIN * distance {
+                    list.moved = 0.0;
+                    self.list_pairs::<L>(points, &mut list);
+                }
+                lists.push(list);
+            }
+        }
+        self.spare.extend(old);
+        self.lists = lists;
+    }
+
+    /// How far apart the particles of two tiles are kept, and their friction; `None` if they do not meet.
+    fn may_meet(&self, a: usize, b: usize) -> Option<(f32, f32)> {
+        let (first, second) = (self.member_of[a] as usize, self.member_of[b] as usize);
+        let (one, other) = (&self.members[first], &self.members[second]);
+        let distance = 0.5 * (one.distance + other.distance);
+        let reach = distance * (1.0 + MARGIN);
+        if !self.boxes[a].grown(reach).meets(&self.boxes[b]) || first == second && !one.meets_itself {
+            return None;
+        }
+        let (at, to) = (self.tiles[a].at, self.tiles[b].at);
+        let is_beside = first == second && (0..2).all(|k| at[k].abs_diff(to[k]) <= 1);
+        if is_beside && self.cones[a].is_smooth_with(&self.cones[b], SMOOTH) {
+            return None;
+        }
+        Some((distance, (one.friction * other.friction).sqrt()))
+    }
+
+    /// How far a particle of one tile can have moved against one of the other since the last look, in m.
+    fn relative_motion(&self, a: usize, b: usize) -> f32 {
+        let (a, b) = (&self.motions[a], &self.motions[b]);
+        (a.high - b.low).abs().max((b.high - a.low).abs()).length()
+    }
+
+    #[inline(always)]
+    fn list_pairs<L: Lanes>(&self, points: &Points, list: &mut List) {
+        let [a, b] = list.tiles.map(|tile| tile as usize);
+        let reach = list.distance * (1.0 + MARGIN);
+        let is_one = self.member_of[a] == self.member_of[b];
+        let exempt = is_one.then(|| &self.members[self.member_of[a] as usize].exempt);
+        let (near_a, near_b) = (self.boxes[a].grown(reach), self.boxes[b].grown(reach));
+        list.pairs.clear();
+        let (mut others, mut count) = ([0_usize; super::tile::MOST_EIGHTS], 0);
+        for &place in &self.tiles[b].eights {
+            if inside::<L>(points, place as usize, &near_a) != 0 {
+                others[count] = place as usize;
+                count += 1;
+            }
+        }
+        for &first in &self.tiles[a].eights {
+            let mut lanes = inside::<L>(points, first as usize, &near_b);
+            while lanes != 0 {
+                let place = first as usize + lanes.trailing_zeros() as usize;
+                lanes &= lanes - 1;
+                for &other in &others[..count] {
+                    self.list_near::<L>(points, place, (other, a == b), (reach, exempt), &mut list.pairs);
+                }
+            }
+        }
+    }
+
+    /// Those of eight particles that are near one, and not its neighbours in the material.
+    #[inline(always)]
+    fn list_near<L: Lanes>(
+        &self,
+        points: &Points,
+        place: usize,
+        (others, is_same_tile): (usize, bool),
+        (reach, exempt): (f32, Option<&Exempt>),
+        out: &mut Vec<[u32; 2]>,
+    ) {
+        let at = Vec3x8::<L>::splat(points.at(place));
+        let away = Vec3x8::read(&points.position, others) - at;
+        let is_near = L::splat(reach * reach).greater(away.length_squared());
+        let mut near = is_near.and(points.are_there::<L>(others)).bits();
+        if let Some(Exempt::Within(exempt)) = exempt.filter(|_| near != 0) {
+            let apart = Vec3x8::<L>::read(&self.material, others) - Vec3x8::splat(get(&self.material, place));
+            near &= apart.length_squared().greater(L::splat(*exempt * *exempt)).bits();
+        }
+        while near != 0 {
+            let other = others + near.trailing_zeros() as usize;
+            near &= near - 1;
+            let is_neighbour = match exempt {
+                Some(Exempt::Listed(start, lists)) => {
+                    let (low, high) = (place.min(other), place.max(other));
+                    lists.get(low - start).is_some_and(|list| list.binary_search(&(high as u32)).is_ok())
+                }
+                _ => false,
+            };
+            if (!is_same_tile || other > place) && !is_neighbour {
+                out.push([place as u32, other as u32]);
+            }
+        }
+    }
+
+    /// Moves all pairs apart that are too close, with friction.
+    pub(super) fn part(&self, points: &mut Points) {
+        for list in &self.lists {
+            for &[a, b] in &list.pairs {
+                part_pair(points, a as usize, b as usize, list.distance, list.friction);
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn part_pair(points: &mut Points, a: usize, b: usize, distance: f32, friction: f32) {
+    let between = points.at(b) - points.at(a);
+    let squared = between.length_squared();
+    let masses = [points.inverse_mass[a], points.inverse_mass[b]];
+    let free = masses[0] + masses[1];
+    if squared >= distance * distance || squared < 1e-16 || free == 0.0 {
+        return;
+    }
+    let length = squared.sqrt();
+    let slip = points.motion(b) - points.motion(a);
+    let normal = between / length;
+    let along = slip.dot(normal);
+    let across = slip - normal * along;
+    let depth = distance - length;
+    let braked = depth.min((-along).max(0.0));
+    // What is deeper than it moved in is moved out without velocity.
+    let apart = (normal * braked - across * friction) / free;
+    let out = normal * ((depth - braked) / free);
+    points.shift(a, -(apart * masses[0]));
+    points.shift(b, apart * masses[1]);
+    points.carry(a, -(out * masses[0]));
+    points.carry(b, out * masses[1]);
+}
+
+/// Where every place of a sheet is in the material, in m.
+pub(super) fn lay_flat(grid: &super::grid::Grid, edges: [f32; 2], material: &mut Coordinates) {
+    for row in 0..grid.rows {
+        for column in 0..grid.columns {
+            let place = grid.place(row, column);
+            material[0][place] = column as f32 * edges[0];
+            material[1][place] = row as f32 * edges[1];
+        }
+    }
+}

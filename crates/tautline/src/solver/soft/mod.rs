@@ -1,0 +1,284 @@
+//! The solver of cloth and rope: small steps, many to a substep, each with one pass over everything.
+//!
+//! At the same cost, one sweep in each of many small steps leaves ten to twenty times less stretch than many sweeps in a
+//! few. What a sweep spreads slowly along a sheet or rope is solved in whole threads at once, and what hangs on held
+//! particles by tethers. Rigid bodies have made their substep by then; cloth and rope meet them on the way, push them and
+//! are pushed.
+
+mod batch;
+mod bend;
+mod grid;
+mod hot;
+mod meet;
+mod patch;
+mod piece;
+mod points;
+mod probe;
+mod rest;
+mod ropes;
+mod sheet;
+mod small_step;
+mod solid;
+mod stick;
+mod strand;
+mod tether;
+mod thread;
+mod tile;
+mod touch;
+
+use glam::Vec3;
+
+use crate::body::{Body, Deformable, Substance};
+use crate::particles::Particles;
+use crate::settings::Settings;
+use crate::simd::LANES;
+use crate::solver::substep::RigidSolver;
+
+use meet::Meetings;
+use piece::{Piece, span_of};
+use points::{Coordinates, Points, get, set};
+use rest::Rest;
+use ropes::{Bundle, Rope};
+use small_step::Timing;
+use solid::Solid;
+use strand::{Segment, Strands};
+use touch::Touch;
+
+pub(crate) use rest::wake_soft;
+
+/// Small steps in a second: so many, and so many more for every particle along the longer side of a cloth, within bounds.
+const LEAST_RATE: f32 = 1440.0;
+const RATE_PER_PARTICLE: f32 = 24.0;
+const RATES: [f32; 2] = [1920.0, 3840.0];
+/// What share of their motion against each other particles of cloth that touch lose in a small step.
+const CLING: f32 = 0.3;
+
+/// All awake cloth and rope.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct SoftSolver {
+    points: Points,
+    pieces: Vec<Piece>,
+    bundles: Vec<Bundle>,
+    meetings: Meetings,
+    strands: Strands,
+    touches: Vec<Touch>,
+    /// Inverse masses as sweeps take them.
+    lightened: Vec<f32>,
+    /// Held particles that are led along: their places, and their motion in a small step (m).
+    led: Vec<(usize, Vec3)>,
+    /// Where the particles of a window were.
+    saved: Coordinates,
+    /// Small steps made in this step.
+    done: u32,
+    /// Small steps in a second, about.
+    rate: f32,
+    /// Whether bodies have come, gone or changed since everything was laid out.
+    is_stale: bool,
+}
+
+impl SoftSolver {
+    /// Has everything laid out anew before the next step.
+    pub(crate) fn invalidate(&mut self) {
+        self.is_stale = true;
+    }
+
+    /// Reads the particles of all awake cloth and rope; `h` is a substep (s).
+    pub(crate) fn begin(&mut self, bodies: &[Body], particles: &Particles, settings: &Settings, h: f32) {
+        self.done = 0;
+        let is_awake = |(_, body): &(usize, &Body)| body.is_awake() && body.is_soft();
+        let awake = bodies.iter().enumerate().filter(is_awake).map(|(index, _)| index);
+        if self.is_stale || !awake.eq(self.pieces.iter().map(|piece| piece.body)) {
+            self.lay_out(bodies, particles, h);
+        }
+        let small = h / self.small_steps(h);
+        self.led.clear();
+        for kick in &mut self.points.kick {
+            kick.clear();
+            kick.resize(if particles.is_forced { self.points.inverse_mass.len() } else { 0 }, 0.0);
+        }
+        for number in 0..self.pieces.len() {
+            self.read(number, bodies, particles, settings.gravity * (small * small), small);
+        }
+        self.lightened.clone_from(&self.points.inverse_mass);
+        self.meetings.forget(&self.points);
+    }
+
+    /// Reads a piece; `fall` is what gravity adds to a displacement in a small step (m).
+    fn read(&mut self, number: usize, bodies: &[Body], particles: &Particles, fall: Vec3, small: f32) {
+        let piece = &mut self.pieces[number];
+        let body = &bodies[piece.body];
+        if let Substance::Deformable(deformable) = &body.substance {
+            piece.tie(body, deformable, particles);
+        }
+        piece.rest = Rest { calm_for: body.rest.calm_for, ..Rest::default() };
+        let scale = small / body.displacement_time();
+        // Half of how much longer than this the last small step was: see `VerletStep`.
+        let lag = (body.previous_step / small - 1.0) * 0.5;
+        for (number, i) in body.particles.clone().enumerate() {
+            let (place, mass) = (piece.place(number), particles.inverse_mass[i]);
+            let mut displacement = particles.displacement[i] * scale;
+            if mass > 0.0 {
+                let kick = particles.force[i] * (mass * small * small);
+                displacement += (fall + kick) * lag;
+                if particles.is_forced {
+                    set(&mut self.points.kick, place, kick);
+                }
+            } else if displacement != Vec3::ZERO {
+                self.led.push((place, displacement));
+            }
+            set(&mut self.points.position, place, particles.position[i]);
+            set(&mut self.points.predicted, place, particles.position[i]);
+            set(&mut self.points.displacement, place, displacement);
+            self.points.inverse_mass[place] = mass;
+        }
+    }
+
+    fn lay_out(&mut self, bodies: &[Body], particles: &Particles, h: f32) {
+        self.is_stale = false;
+        self.rate = rate_of(bodies);
+        let small = h / self.small_steps(h);
+        self.pieces.clear();
+        self.strands.reset();
+        let mut end = 0;
+        for (index, body) in bodies.iter().enumerate().filter(|(_, body)| body.is_awake()) {
+            if let Substance::Deformable(deformable) = &body.substance {
+                self.pieces.push(Piece::new(index, body, deformable, particles, end, small));
+                end = self.pieces.last().map_or(end, |piece| piece.places.end);
+            }
+        }
+        self.points.reset(end);
+        self.meetings.reset(self.points.inverse_mass.len());
+        let mut ropes = Vec::new();
+        for (number, piece) in self.pieces.iter_mut().enumerate() {
+            let body = &bodies[piece.body];
+            for particle in 0..body.particles.len() {
+                self.points.presence[piece.place(particle)] = 1.0;
+            }
+            let Substance::Deformable(deformable) = &body.substance else { continue };
+            if deformable.is_rope() {
+                let spans = deformable.sticks.iter().map(|stick| span_of(stick.rest_length, 0.0)).collect();
+                ropes.push(Rope { start: piece.places.start, spans });
+                self.strands.add(segments(number as u32, piece, deformable, body));
+            } else {
+                let distance = 2.0 * piece.thickness;
+                let exempt = piece.exempt(deformable, distance, &mut self.meetings.material);
+                let meets_itself = deformable.neighbours.is_some();
+                self.meetings.add(&piece.tiles, meets_itself, distance, exempt, CLING);
+                piece.longest_motion = distance;
+            }
+        }
+        ropes.sort_by_key(|rope: &Rope| (rope.spans.len(), rope.start));
+        let mean = self.pieces.iter().map(|piece| piece.mean_inverse_mass).fold(0.0, f32::max);
+        self.bundles = ropes.chunks(LANES).map(|ropes| Bundle::new(ropes.to_vec(), mean)).collect();
+    }
+
+    /// One substep of `h` (s), after the rigid bodies have made theirs.
+    pub(crate) fn substep(&mut self, bodies: &[Body], rigid: &mut RigidSolver, settings: &Settings, h: f32) {
+        if self.pieces.is_empty() {
+            return;
+        }
+        let count = self.small_steps(h);
+        let solid = |(index, body)| Solid::of(index, body, rigid, count);
+        let mut solids: Vec<Solid<'_>> = bodies.iter().enumerate().filter_map(solid).collect();
+        let timing = Timing {
+            small: h / count,
+            count: count as usize,
+            gravity: settings.gravity,
+            damping: settings.damping,
+            recovery: settings.separation_speed.unwrap_or(f32::INFINITY),
+            instructions: settings.instructions,
+        };
+        self.make_small_steps(&mut solids, bodies, &timing);
+        for solid in &solids {
+            if let Some(change) = solid.outcome(count) {
+                rigid.nudge(solid.body, &change);
+            }
+        }
+    }
+
+    /// Where a particle of an awake cloth or rope is (m) and how it moves (m/s).
+    pub(crate) fn particle(&self, body: usize, particle: usize, h: f32) -> Option<(Vec3, Vec3)> {
+        let place = self.place(body, particle)?;
+        Some((self.points.at(place), self.points.motion(place) / (h / self.small_steps(h))))
+    }
+
+    /// Changes how a particle of an awake cloth or rope moves, by so much (m/s).
+    pub(crate) fn push(&mut self, body: usize, particle: usize, change: Vec3, h: f32) {
+        if let Some(place) = self.place(body, particle) {
+            let motion = get(&self.points.displacement, place) + change * (h / self.small_steps(h));
+            set(&mut self.points.displacement, place, motion);
+        }
+    }
+
+    /// How many small steps a substep of `h` (s) has.
+    fn small_steps(&self, h: f32) -> f32 {
+        (h * self.rate).round().max(1.0)
+    }
+
+    fn place(&self, body: usize, particle: usize) -> Option<usize> {
+        self.pieces.iter().find(|piece| piece.body == body).map(|piece| piece.place(particle))
+    }
+
+    /// Writes the particles. Returns the bodies that did not stay finite, which stay where they were, each with its first
+    /// particle that did not.
+    pub(crate) fn finish(
+        &mut self,
+        bodies: &mut [Body],
+        particles: &mut Particles,
+        h: f32,
+    ) -> Vec<(usize, u32)> {
+        let small = h / self.small_steps(h);
+        let mut lost = Vec::new();
+        for piece in &self.pieces {
+            let body = &mut bodies[piece.body];
+            let moved = |number: usize| {
+                let place = piece.place(number);
+                (get(&self.points.position, place), self.points.motion(place))
+            };
+            let is_lost = |&number: &usize| {
+                let (position, displacement) = moved(number);
+                !(position.is_finite() && displacement.is_finite())
+            };
+            if let Some(number) = (0..body.particles.len()).find(is_lost) {
+                lost.push((piece.body, number as u32));
+                continue;
+            }
+            for (number, i) in body.particles.clone().enumerate() {
+                (particles.position[i], particles.displacement[i]) = moved(number);
+            }
+            body.previous_step = small;
+        }
+        self.is_stale |= !lost.is_empty();
+        lost
+    }
+}
+
+/// The segments of a rope.
+fn segments(number: u32, piece: &Piece, rope: &Deformable, body: &Body) -> impl Iterator<Item = Segment> {
+    let (start, friction, radius) = (piece.places.start as u32, body.surface.friction, rope.thickness);
+    let is_held = piece.is_held();
+    // Segments that a bend could bring so near are neighbours, and no contact.
+    let shortest = rope.sticks.iter().map(|stick| stick.rest_length).fold(f32::INFINITY, f32::min);
+    let near = (3.0 * radius / shortest).ceil().min(1e6) as u32 + 1;
+    let exempt = if rope.neighbours.is_some() { near } else { u32::MAX };
+    rope.sticks.iter().zip(0..).map(move |(stick, number_in_rope)| Segment {
+        ends: [start + stick.a, start + stick.b],
+        radius,
+        friction,
+        rope: number,
+        number: number_in_rope,
+        exempt,
+        is_held,
+    })
+}
+
+/// How many small steps awake cloth and rope take in a second. A sweep carries strain one edge further, so that what is
+/// finer needs more.
+fn rate_of(bodies: &[Body]) -> f32 {
+    let finest = |body: &Body| match &body.substance {
+        Substance::Deformable(deformable) if body.is_awake() => deformable.fineness(body.particles.len()),
+        _ => 0,
+    };
+    let fineness = bodies.iter().map(finest).max().unwrap_or(0);
+    (LEAST_RATE + RATE_PER_PARTICLE * fineness as f32).clamp(RATES[0], RATES[1])
+}

@@ -1,0 +1,179 @@
+//! A cloth or rope among the points.
+
+use std::ops::Range;
+
+use super::batch::Batches;
+use super::grid::Grid;
+use super::meet::{Exempt, lay_flat};
+use super::points::{Coordinates, Points};
+use super::rest::Rest;
+use super::sheet::Sheet;
+use super::stick::Span;
+use super::tether::{Tethers, distances_along};
+use super::tile::{Bounds, Tile, tiles_of_grid, tiles_of_run};
+use crate::body::{Body, Deformable};
+use crate::constraint::Stick;
+use crate::particles::Particles;
+use crate::simd::{LANES, Lanes};
+
+/// A cloth or rope that is awake.
+#[derive(Debug, Clone)]
+pub(super) struct Piece {
+    /// The body's index in the world.
+    pub(super) body: usize,
+    pub(super) layout: Layout,
+    pub(super) places: Range<usize>,
+    pub(super) tiles: Vec<Tile>,
+    /// Around each tile, in m, with what was there when they were last made.
+    pub(super) boxes: Vec<Bounds>,
+    /// Which particles are held.
+    held: Vec<u32>,
+    pub(super) friction: f32,
+    /// Of a particle of mean mass, in 1/kg.
+    pub(super) mean_inverse_mass: f32,
+    pub(super) rest: Rest,
+    pub(super) tethers: Tethers,
+    /// How far particles are kept from solids, in m.
+    pub(super) thickness: f32,
+    /// How far a particle may go in a small step, in m.
+    pub(super) longest_motion: f32,
+    /// How far the fastest particle went in the last small step, in m.
+    pub(super) fastest: f32,
+}
+
+/// How the sticks of a piece are solved.
+#[derive(Debug, Clone)]
+pub(super) enum Layout {
+    Sheet(Box<Sheet>),
+    /// In any order.
+    Loose(Batches),
+    /// With others, in a bundle.
+    Rope,
+}
+
+impl Piece {
+    pub(super) fn new(
+        index: usize,
+        body: &Body,
+        deformable: &Deformable,
+        particles: &Particles,
+        start: usize,
+        h: f32,
+    ) -> Self {
+        let count = body.particles.len();
+        let masses = &particles.mass[body.particles.clone()];
+        let mean_inverse_mass = count as f32 / masses.iter().sum::<f32>();
+        let span = |stick: &Stick| span_of(stick.rest_length, 0.0);
+        let (layout, places, tiles) = match &deformable.grid {
+            Some(shape) => {
+                let grid = Grid::new(start, shape.columns as usize, shape.rows as usize);
+                let [along, down] = shape.edges;
+                let across = (along * along + down * down).sqrt();
+                let weave = [along, down, across].map(|length| span_of(length, 0.0));
+                let bending = deformable.rigidity.map(|rigidity| bending_of(rigidity, shape.edges, h));
+                let sheet = Sheet::new(grid, weave, bending, mean_inverse_mass);
+                (Layout::Sheet(Box::new(sheet)), grid.places(), tiles_of_grid(&grid))
+            }
+            None => {
+                let places = start..start + count.next_multiple_of(LANES);
+                let layout = if deformable.is_rope() {
+                    Layout::Rope
+                } else {
+                    let placed =
+                        |stick: &Stick| ([stick.a + start as u32, stick.b + start as u32], span(stick));
+                    Layout::Loose(Batches::new(&deformable.sticks.iter().map(placed).collect::<Vec<_>>()))
+                };
+                (layout, places.clone(), tiles_of_run(places))
+            }
+        };
+        let boxes = vec![Bounds::EMPTY; tiles.len()];
+        let mut piece = Self {
+            body: index,
+            layout,
+            places,
+            tiles,
+            boxes,
+            held: Vec::new(),
+            friction: body.surface.friction,
+            mean_inverse_mass,
+            rest: Rest::default(),
+            tethers: Tethers::default(),
+            thickness: deformable.thickness,
+            longest_motion: f32::MAX,
+            fastest: 0.0,
+        };
+        piece.tie(body, deformable, particles);
+        piece
+    }
+
+    /// The place of a particle of the body.
+    pub(super) fn place(&self, particle: usize) -> usize {
+        match &self.layout {
+            Layout::Sheet(sheet) => {
+                sheet.grid.place(particle / sheet.grid.columns, particle % sheet.grid.columns)
+            }
+            Layout::Loose(_) | Layout::Rope => self.places.start + particle,
+        }
+    }
+
+    /// Ties particles to those that are held, if these have changed.
+    pub(super) fn tie(&mut self, body: &Body, deformable: &Deformable, particles: &Particles) {
+        let masses = &particles.inverse_mass[body.particles.clone()];
+        let held: Vec<u32> =
+            (0..).zip(masses).filter(|(_, w)| **w == 0.0).map(|(particle, _)| particle).collect();
+        if held == self.held {
+            return;
+        }
+        let count = body.particles.len();
+        let distances = |from: u32| match &deformable.grid {
+            Some(grid) => grid.distances(from),
+            None => distances_along(&deformable.sticks, count, from),
+        };
+        self.tethers = Tethers::new(&held, count, distances, |particle| self.place(particle));
+        self.held = held;
+    }
+
+    pub(super) fn is_held(&self) -> bool {
+        !self.held.is_empty()
+    }
+
+    /// Which of its particles are too near in the material to push each other when they are kept `distance` (m) apart.
+    pub(super) fn exempt(
+        &self,
+        deformable: &Deformable,
+        distance: f32,
+        material: &mut Coordinates,
+    ) -> Exempt {
+        if let (Layout::Sheet(sheet), Some(shape)) = (&self.layout, &deformable.grid) {
+            let [along, down] = shape.edges;
+            lay_flat(&sheet.grid, shape.edges, material);
+            return Exempt::Within(distance.max((along * along + down * down).sqrt()) * 1.001);
+        }
+        let count =
+            deformable.sticks.iter().map(|stick| stick.a.max(stick.b)).max().map_or(0, |last| last + 1);
+        Exempt::along(&deformable.sticks, count as usize, self.places.start, distance * 1.2)
+    }
+
+    /// Brings the boxes around tiles up to date.
+    #[inline(always)]
+    pub(super) fn fit_boxes<L: Lanes>(&mut self, points: &Points) {
+        for (bounds, tile) in self.boxes.iter_mut().zip(&self.tiles) {
+            *bounds = tile.bounds::<L>(points);
+        }
+    }
+
+    pub(super) fn bounds(&self) -> Bounds {
+        self.boxes.iter().fold(Bounds::EMPTY, |all, bounds| all.with(*bounds))
+    }
+}
+
+pub(super) fn span_of(length: f32, compliance: f32) -> Span {
+    Span { low: length, high: length, compliance }
+}
+
+/// α/h² of bending along rows and along columns, with an h² of a small step times the two from one time to the next.
+/// At each inner particle a strip as wide as a cell bends: k = B b/e, α = e²/k.
+fn bending_of(rigidity: f32, [along, down]: [f32; 2], h: f32) -> [f32; 2] {
+    let compliance = |edge: f32, width: f32| edge * edge * edge / (rigidity * width) / (2.0 * h * h);
+    [compliance(along, down), compliance(down, along)]
+}

@@ -1,0 +1,141 @@
+//! Cloth and rope at rest.
+
+use super::SoftSolver;
+use super::piece::Piece;
+use super::tile::Bounds;
+use crate::body::Body;
+use crate::particles::Particles;
+use crate::rest::note_drift;
+use crate::settings::Sleep;
+
+/// What lies on something and is slower than this on the mean (root of the mean square), in m/s, …
+const CALM: f32 = 0.15;
+/// … for this long, in s, is calmed:
+const PATIENCE: f32 = 0.25;
+/// its slow motion dies out at this rate, in 1/s, …
+const CALMING: f32 = 276.0;
+/// … and its motion at this speed, in m/s, not at all.
+const LIVELY: f32 = 0.5;
+
+/// What a step tells about a piece's rest.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Rest {
+    /// Whether it has touched something that does not move.
+    pub(super) leans: bool,
+    /// Whether it has touched a rigid body that moves.
+    pub(super) is_pushed: bool,
+    /// For how long it has been calm and leaning, in s, when the step began.
+    pub(super) calm_for: f32,
+}
+
+/// How slow motion is calmed in a small step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Calming {
+    /// The share that what is at rest loses; 0 = none.
+    pub(super) share: f32,
+    /// The displacement that loses nothing, in m.
+    pub(super) lively: f32,
+}
+
+impl Piece {
+    /// What sags or rocks on its support would go on for long, since nothing here takes energy but friction. Free fall and
+    /// swinging are none of this: only what leans on something that does not move is calmed.
+    pub(super) fn calming(&self, h: f32) -> Calming {
+        let is_calm = self.rest.calm_for >= PATIENCE;
+        Calming { share: if is_calm { CALMING * h / (1.0 + CALMING * h) } else { 0.0 }, lively: LIVELY * h }
+    }
+}
+
+impl SoftSolver {
+    /// Ends a step of `dt` (s): counts how long bodies have been calm, and keeps rigid bodies awake that awake cloth or
+    /// rope touches.
+    pub(crate) fn note_rest(&mut self, bodies: &mut [Body], particles: &Particles, dt: f32) {
+        for piece in &mut self.pieces {
+            let body = &mut bodies[piece.body];
+            let rate = body.displacement_time();
+            let squares = body.particles.clone().map(|i| particles.displacement[i].length_squared());
+            let mean = squares.sum::<f32>() / body.particles.len() as f32;
+            let is_calm = piece.rest.leans && mean < CALM * CALM * rate * rate;
+            body.rest.calm_for = if is_calm { body.rest.calm_for + dt } else { 0.0 };
+        }
+    }
+
+    /// Puts cloth and rope to sleep that has drifted slower than `sleep.speed` for `sleep.seconds`, all together that may
+    /// touch; not what touches a rigid body that moves.
+    pub(crate) fn put_to_sleep(
+        &mut self,
+        bodies: &mut [Body],
+        particles: &mut Particles,
+        sleep: Sleep,
+        dt: f32,
+    ) {
+        let mut restless = Vec::with_capacity(self.pieces.len());
+        for piece in &self.pieces {
+            let body = &mut bodies[piece.body];
+            note_drift(body, &particles.position, sleep, dt);
+            restless.push(piece.rest.is_pushed || body.rest.still_for < sleep.seconds);
+        }
+        let reaches: Vec<Bounds> =
+            self.pieces.iter().map(|piece| piece.bounds().grown(2.0 * piece.thickness)).collect();
+        // What is near something restless stays awake too, and so on.
+        while let Some(next) = (0..restless.len()).find(|&a| {
+            !restless[a] && (0..restless.len()).any(|b| restless[b] && reaches[a].meets(&reaches[b]))
+        }) {
+            restless[next] = true;
+        }
+        for (piece, _) in self.pieces.iter().zip(&restless).filter(|(_, is_restless)| !**is_restless) {
+            let body = &mut bodies[piece.body];
+            body.rest.asleep = true;
+            particles.displacement[body.particles.clone()].fill(glam::Vec3::ZERO);
+        }
+    }
+}
+
+/// How many times faster than what sleeps is what wakes it.
+const WAKING_SPEED: f32 = 2.0;
+
+/// Wakes sleeping cloth and rope whose box is near one of something that moves.
+pub(crate) fn wake_soft(bodies: &mut [Body], particles: &Particles, sleep: Option<Sleep>) {
+    let is_sleeper = |body: &Body| body.is_soft() && body.rest.asleep;
+    let Some(sleep) = sleep.filter(|_| bodies.iter().any(is_sleeper)) else { return };
+    let mut movers: Vec<Bounds> = bodies
+        .iter()
+        .filter(|body| moves(body, particles, WAKING_SPEED * sleep.speed))
+        .map(|body| reach_of(body, particles))
+        .collect();
+    let mut sleepers: Vec<(usize, Bounds)> = bodies
+        .iter()
+        .enumerate()
+        .filter(|(_, body)| is_sleeper(body))
+        .map(|(index, body)| (index, reach_of(body, particles)))
+        .collect();
+    // What wakes may carry what sleeps on it.
+    while let Some(mover) = movers.pop() {
+        let (woken, still): (Vec<_>, Vec<_>) =
+            sleepers.into_iter().partition(|(_, bounds)| bounds.meets(&mover));
+        for (index, bounds) in woken {
+            bodies[index].wake();
+            movers.push(bounds);
+        }
+        sleepers = still;
+    }
+}
+
+/// Whether a body moves faster than `speed` (m/s) anywhere.
+fn moves(body: &Body, particles: &Particles, speed: f32) -> bool {
+    let reach = speed * body.displacement_time();
+    body.is_awake()
+        && particles.displacement[body.particles.clone()].iter().any(|d| d.length_squared() > reach * reach)
+}
+
+/// The box around a body and how far it touches, in m.
+fn reach_of(body: &Body, particles: &Particles) -> Bounds {
+    let positions = &particles.position[body.particles.clone()];
+    let around = |bounds: Bounds, &at: &glam::Vec3| bounds.with(Bounds { low: at, high: at });
+    let bounds = positions.iter().fold(Bounds::EMPTY, around);
+    match body.rigid() {
+        // Four particles near the centre of mass stand for it.
+        Some(rigid) => bounds.grown(rigid.shape.reach()),
+        None => bounds.grown(2.0 * body.reach()),
+    }
+}

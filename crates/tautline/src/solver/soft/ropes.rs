@@ -1,0 +1,84 @@
+//! Ropes, up to eight side by side: solved as threads, then swept.
+
+use super::points::{Coordinates, Points, get, set};
+use super::stick::{Span, SpanAt, Spans, relax_spans};
+use super::thread::{Pivot, REGULARISATION, Threads};
+use crate::simd::{LANES, Lanes, Row};
+
+/// A rope among the points: its particles stand one after another.
+#[derive(Debug, Clone)]
+pub(super) struct Rope {
+    pub(super) start: usize,
+    pub(super) spans: Vec<Span>,
+}
+
+/// Ropes side by side.
+#[derive(Debug, Clone)]
+pub(super) struct Bundle {
+    ropes: Vec<Rope>,
+    knots: usize,
+    spans: Vec<[Row; 3]>,
+    mean_inverse_mass: f32,
+    positions: Coordinates,
+    masses: Vec<f32>,
+}
+
+impl Bundle {
+    /// At most eight; the shorter ones end in knots that weigh nothing.
+    pub(super) fn new(ropes: Vec<Rope>, mean_inverse_mass: f32) -> Self {
+        let knots = ropes.iter().map(|rope| rope.spans.len() + 1).max().unwrap_or(1);
+        let mut spans = vec![[Row([1.0; LANES]), Row([1.0; LANES]), Row::ZERO]; knots - 1];
+        for (lane, rope) in ropes.iter().enumerate() {
+            for (rows, span) in spans.iter_mut().zip(&rope.spans) {
+                let numbers = [span.low, span.high, span.compliance];
+                rows.iter_mut().zip(numbers).for_each(|(row, number)| row.0[lane] = number);
+            }
+        }
+        let length = (knots + 1) * LANES;
+        let mut positions = Coordinates::default();
+        for (axis, numbers) in positions.iter_mut().enumerate() {
+            // What is no knot is apart from its neighbours.
+            *numbers = (0..length).map(|place| if axis == 0 { place as f32 } else { 0.0 }).collect();
+        }
+        Self { ropes, knots, spans, mean_inverse_mass, positions, masses: vec![0.0; length] }
+    }
+
+    /// Solves all sticks of each rope together, and sweeps once over them.
+    #[inline(always)]
+    pub(super) fn solve<L: Lanes>(&mut self, points: &mut Points, pivots: &mut Vec<Pivot<L>>) {
+        self.read(points);
+        let Self { knots, spans, positions, masses, .. } = self;
+        let threads = Threads {
+            start: 0,
+            stride: LANES,
+            knots: *knots,
+            count: LANES,
+            spans: &spans[..],
+            regularisation: REGULARISATION * self.mean_inverse_mass,
+        };
+        threads.solve(positions, masses, pivots);
+        for stick in 0..*knots - 1 {
+            let of_stick: Spans<L> = (&spans[..]).span(stick);
+            relax_spans(positions, masses, [stick * LANES, (stick + 1) * LANES], of_stick);
+        }
+        self.write(points);
+    }
+
+    fn read(&mut self, points: &Points) {
+        for (lane, rope) in self.ropes.iter().enumerate() {
+            for knot in 0..=rope.spans.len() {
+                let (from, to) = (rope.start + knot, knot * LANES + lane);
+                set(&mut self.positions, to, points.at(from));
+                self.masses[to] = points.inverse_mass[from];
+            }
+        }
+    }
+
+    fn write(&self, points: &mut Points) {
+        for (lane, rope) in self.ropes.iter().enumerate() {
+            for knot in 0..=rope.spans.len() {
+                set(&mut points.position, rope.start + knot, get(&self.positions, knot * LANES + lane));
+            }
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! A rectangular sheet in a small step: threads along rows and columns in turn, a sweep over all sticks, bending.
+
+use super::bend::Lines;
+use super::grid::{Grid, Weave};
+use super::hot::Windows;
+use super::points::{Coordinates, Points, eights};
+use super::stick::Span;
+use super::thread::{Pivot, REGULARISATION, Threads};
+use crate::simd::{LANES, Lanes};
+
+/// A sheet among the points.
+#[derive(Debug, Clone)]
+pub(super) struct Sheet {
+    pub(super) grid: Grid,
+    pub(super) weave: Weave,
+    /// Compliances of bending along rows and along columns, α/h² with the h of two small steps, in 1/kg; `None` = limp.
+    pub(super) bending: Option<[f32; 2]>,
+    /// 1/m of a particle of mean mass, in 1/kg.
+    pub(super) mean_inverse_mass: f32,
+    pub(super) windows: Windows,
+    turned: Turned,
+}
+
+/// Rows as columns, to be solved side by side.
+#[derive(Debug, Clone, Default)]
+struct Turned {
+    positions: Coordinates,
+    masses: Vec<f32>,
+}
+
+impl Sheet {
+    pub(super) fn new(grid: Grid, weave: Weave, bending: Option<[f32; 2]>, mean_inverse_mass: f32) -> Self {
+        Self {
+            grid,
+            weave,
+            bending,
+            mean_inverse_mass,
+            windows: Windows::default(),
+            turned: Turned::default(),
+        }
+    }
+
+    /// Bends, and pulls threads tight if some of the sheet is held: along columns in even small steps, along rows in odd
+    /// ones. What lies on something is better left to sweeps: threads through its folds would push and pull in turn.
+    #[inline(always)]
+    pub(super) fn pull_threads<L: Lanes>(
+        &mut self,
+        points: &mut Points,
+        is_held: bool,
+        is_even: bool,
+        pivots: &mut Vec<Pivot<L>>,
+    ) {
+        let Grid { start, columns, rows, .. } = self.grid;
+        let bending = self.bending.map(|[along, down]| if is_even { down } else { along });
+        if !is_held && bending.is_none() {
+            return;
+        }
+        if is_even {
+            let (stride, span) = (self.grid.stride(), self.weave[1]);
+            let shape = (start, stride, rows, stride);
+            self.solve(
+                &mut points.position,
+                &points.inverse_mass,
+                shape,
+                (is_held.then_some(span), bending),
+                pivots,
+            );
+        } else {
+            let stride = rows.next_multiple_of(LANES);
+            let mut turned = std::mem::take(&mut self.turned);
+            turned.read::<L>(&self.grid, points, stride);
+            let shape = (0, stride, columns, stride);
+            self.solve(
+                &mut turned.positions,
+                &turned.masses,
+                shape,
+                (is_held.then_some(self.weave[0]), bending),
+                pivots,
+            );
+            turned.write::<L>(&self.grid, points, stride);
+            self.turned = turned;
+        }
+    }
+
+    #[inline(always)]
+    fn solve<L: Lanes>(
+        &self,
+        positions: &mut Coordinates,
+        masses: &[f32],
+        (start, stride, knots, count): (usize, usize, usize, usize),
+        (spans, bending): (Option<Span>, Option<f32>),
+        pivots: &mut Vec<Pivot<L>>,
+    ) {
+        if let Some(spans) = spans {
+            let regularisation = REGULARISATION * self.mean_inverse_mass;
+            Threads { start, stride, knots, count, spans, regularisation }.solve(positions, masses, pivots);
+        }
+        if let Some(compliance) = bending {
+            Lines { start, stride, knots, count, compliance }.straighten::<L>(positions, masses);
+        }
+    }
+}
+
+impl Turned {
+    /// Copies a sheet, row to column, whose rows then have `stride` places.
+    #[inline(always)]
+    fn read<L: Lanes>(&mut self, grid: &Grid, points: &Points, stride: usize) {
+        let length = grid.stride() * stride;
+        for axis in 0..3 {
+            self.positions[axis].resize(length, 0.0);
+            turn::<L>(grid, &points.position[axis], &mut self.positions[axis], stride);
+        }
+        self.masses.resize(length, 0.0);
+        turn::<L>(grid, &points.inverse_mass, &mut self.masses, stride);
+    }
+
+    #[inline(always)]
+    fn write<L: Lanes>(&self, grid: &Grid, points: &mut Points, stride: usize) {
+        for axis in 0..3 {
+            turn_back::<L>(grid, &self.positions[axis], &mut points.position[axis], stride);
+        }
+    }
+}
+
+/// Column c of the sheet becomes row c.
+#[inline(always)]
+fn turn<L: Lanes>(grid: &Grid, numbers: &[f32], turned: &mut [f32], stride: usize) {
+    let (numbers, turned) = (eights(numbers), turned.as_chunks_mut::<LANES>().0);
+    let (step, stride) = (grid.stride() / LANES, stride / LANES);
+    for band in 0..stride {
+        let rows = LANES.min(grid.rows - band * LANES);
+        for (parity, of_half) in eights_of_row(grid) {
+            let from = (grid.start + parity * grid.half) / LANES + of_half + band * LANES * step;
+            let mut lanes = [L::splat(0.0); LANES];
+            for (k, lanes) in lanes.iter_mut().enumerate().take(rows) {
+                *lanes = L::read(&numbers[from + k * step]);
+            }
+            let to = (2 * of_half * LANES + parity) * stride + band;
+            for (k, column) in L::transpose(lanes).into_iter().enumerate() {
+                column.write(&mut turned[to + 2 * k * stride]);
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn turn_back<L: Lanes>(grid: &Grid, turned: &[f32], numbers: &mut [f32], stride: usize) {
+    let (turned, numbers) = (eights(turned), numbers.as_chunks_mut::<LANES>().0);
+    let (step, stride) = (grid.stride() / LANES, stride / LANES);
+    for band in 0..stride {
+        let rows = LANES.min(grid.rows - band * LANES);
+        for (parity, of_half) in eights_of_row(grid) {
+            let from = (2 * of_half * LANES + parity) * stride + band;
+            let mut lanes = [L::splat(0.0); LANES];
+            for (k, lanes) in lanes.iter_mut().enumerate() {
+                *lanes = L::read(&turned[from + 2 * k * stride]);
+            }
+            let to = (grid.start + parity * grid.half) / LANES + of_half + band * LANES * step;
+            for (k, row) in L::transpose(lanes).into_iter().enumerate().take(rows) {
+                row.write(&mut numbers[to + k * step]);
+            }
+        }
+    }
+}
+
+/// Where each run of eight places of a row begins: its parity, and its number in that half.
+fn eights_of_row(grid: &Grid) -> impl Iterator<Item = (usize, usize)> + use<> {
+    let eights = grid.half / LANES;
+    (0..2).flat_map(move |parity| (0..eights).map(move |of_half| (parity, of_half)))
+}

@@ -1,0 +1,305 @@
+//! The small steps of a substep, in physical order.
+
+use glam::Vec3;
+
+use super::SoftSolver;
+use super::patch::{Cone, cone_of};
+use super::piece::{Layout, Piece};
+use super::points::SmallStep;
+use super::solid::Solid;
+use super::strand::Sheeting;
+use super::thread::Pivot;
+use super::touch::{self, Push, Skin};
+use crate::body::Body;
+use crate::simd::{Instructions, Kernel, Lanes, run};
+
+/// What touches something that does not move counts as this much heavier in the next sweep, so that sheets are pulled
+/// tight around it rather than through it.
+const LIGHTNESS: f32 = 0.3;
+/// Which cloth and ropes may touch which is looked at once in so many small steps.
+const LOOK_EVERY: u32 = 4;
+/// By how much faster than now things may get until the next look.
+const HASTE: f32 = 1.5;
+
+/// The substep that is being made.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Timing {
+    /// A small step, in s.
+    pub(super) small: f32,
+    /// Small steps.
+    pub(super) count: usize,
+    /// In m/s².
+    pub(super) gravity: Vec3,
+    /// In 1/s.
+    pub(super) damping: f32,
+    /// The speed at which what was too deep before is moved out, in m/s.
+    pub(super) recovery: f32,
+    pub(super) instructions: Instructions,
+}
+
+impl SoftSolver {
+    /// All small steps of a substep.
+    pub(super) fn make_small_steps(&mut self, solids: &mut [Solid<'_>], bodies: &[Body], timing: &Timing) {
+        let instructions = timing.instructions;
+        let mut until_search = 0;
+        for number in 0..timing.count {
+            run(instructions, Integrate(self, timing));
+            if until_search == 0 {
+                let left = timing.count - number;
+                until_search = run(instructions, FindTouches { solver: self, solids, bodies, left });
+            }
+            until_search -= 1;
+            run(instructions, Relax(self));
+            run(instructions, Part(self));
+            run(instructions, PullRopes(self));
+            run(instructions, PushOut { solver: self, solids, timing });
+            run(instructions, SweepWindows { solver: self, solids, timing });
+            solids.iter_mut().for_each(Solid::advance);
+            self.done += 1;
+        }
+    }
+}
+
+struct Integrate<'a>(&'a mut SoftSolver, &'a Timing);
+
+impl Kernel for Integrate<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Self(SoftSolver { points, pieces, led, .. }, timing) = self;
+        let h = timing.small;
+        for piece in pieces {
+            let step = SmallStep {
+                keep: 1.0 / (1.0 + timing.damping * h),
+                fall: timing.gravity * (h * h),
+                limit: piece.longest_motion,
+                calming: piece.calming(h),
+            };
+            piece.fastest = points.integrate::<L>(piece.places.clone(), step);
+        }
+        for &(place, motion) in led.iter() {
+            points.lead(place, motion);
+        }
+    }
+}
+
+/// Finds what may be touched in the next small steps, and for how many of the `left` ones that holds.
+struct FindTouches<'a, 'b> {
+    solver: &'a mut SoftSolver,
+    solids: &'a [Solid<'b>],
+    bodies: &'a [Body],
+    left: usize,
+}
+
+impl Kernel for FindTouches<'_, '_> {
+    type Output = usize;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> usize {
+        let SoftSolver { points, pieces, touches, .. } = self.solver;
+        touches.clear();
+        // No more than half the thickness at a time: planes of edges and corners hold only near where they were found.
+        let steps = |piece: &Piece| ((0.5 * piece.thickness / piece.fastest.max(1e-12)) as usize).max(1);
+        let count = pieces.iter().map(steps).fold(self.left, usize::min);
+        for (number, piece) in pieces.iter_mut().enumerate() {
+            piece.fit_boxes::<L>(points);
+            let margin = piece.fastest * count as f32 + 0.25 * piece.thickness;
+            let around = piece.bounds().grown(piece.thickness + margin);
+            for (solid_number, solid) in self.solids.iter().enumerate() {
+                let stance = solid.stance(self.left as f32);
+                if solid.bounds(&stance).is_some_and(|bounds| !around.meets(&bounds)) {
+                    continue;
+                }
+                let friction = self.bodies[piece.body].surface.against(&solid.skin).friction;
+                let skin = Skin { piece: number as u32, thickness: piece.thickness, margin, friction };
+                let tiles = (&piece.tiles[..], &piece.boxes[..]);
+                touch::find::<L>(tiles, points, (solid_number, solid, &stance), skin, touches);
+            }
+        }
+        for piece in pieces {
+            if let Layout::Sheet(sheet) = &mut piece.layout {
+                sheet.windows.list_touches(&sheet.grid, touches);
+            }
+        }
+        count
+    }
+}
+
+/// Tethers, threads, a sweep, bending.
+struct Relax<'a>(&'a mut SoftSolver);
+
+impl Kernel for Relax<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let SoftSolver { points, pieces, lightened, done, .. } = self.0;
+        let mut pivots: Vec<Pivot<L>> = Vec::new();
+        for piece in pieces {
+            piece.tethers.tighten::<L>(points);
+            let is_held = piece.is_held();
+            match &mut piece.layout {
+                Layout::Sheet(sheet) => {
+                    sheet.pull_threads(points, is_held, done.is_multiple_of(2), &mut pivots);
+                    let whole = sheet.grid.whole();
+                    sheet.grid.sweep::<L>(&mut points.position, lightened, &whole, &sheet.weave);
+                }
+                Layout::Loose(batches) => batches.sweep::<L>(points, lightened),
+                Layout::Rope => {}
+            }
+        }
+    }
+}
+
+/// Keeps cloth and ropes from each other and themselves.
+struct Part<'a>(&'a mut SoftSolver);
+
+impl Kernel for Part<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let solver = self.0;
+        let is_time = solver.done.is_multiple_of(LOOK_EVERY);
+        if is_time && !solver.meetings.is_empty() {
+            solver.look_at_cloth::<L>();
+        }
+        if is_time && !solver.strands.is_empty() {
+            solver.look_at_ropes::<L>();
+        }
+        solver.meetings.part(&mut solver.points);
+        let SoftSolver { points, pieces, strands, .. } = solver;
+        strands.part(points, |piece| pieces[piece as usize].rest.leans = true);
+    }
+}
+
+impl SoftSolver {
+    #[inline(always)]
+    fn look_at_cloth<L: Lanes>(&mut self) {
+        let mut number = 0;
+        for piece in &self.pieces {
+            if let Layout::Rope = piece.layout {
+                continue;
+            }
+            for tile in &piece.tiles {
+                let cone = match &piece.layout {
+                    Layout::Sheet(sheet) => cone_of::<L>(&sheet.grid, tile, &self.points),
+                    Layout::Loose(_) | Layout::Rope => Cone::ALL,
+                };
+                self.meetings.update_tile::<L>(number, &self.points, cone);
+                number += 1;
+            }
+        }
+        self.meetings.look::<L>(&self.points);
+    }
+
+    #[inline(always)]
+    fn look_at_ropes<L: Lanes>(&mut self) {
+        let fastest = self.pieces.iter().map(|piece| piece.fastest).fold(0.0, f32::max);
+        let thinnest = self.pieces.iter().map(|piece| piece.thickness).fold(f32::INFINITY, f32::min);
+        let margin = 2.0 * HASTE * LOOK_EVERY as f32 * fastest + 0.5 * thinnest;
+        self.pieces.iter_mut().for_each(|piece| piece.fit_boxes::<L>(&self.points));
+        let is_cloth = |(_, piece): &(usize, &Piece)| !matches!(piece.layout, Layout::Rope);
+        let sheets = self.pieces.iter().enumerate().filter(is_cloth).map(|(number, piece)| Sheeting {
+            piece: number as u32,
+            tiles: &piece.tiles,
+            boxes: &piece.boxes,
+            thickness: piece.thickness,
+            friction: piece.friction,
+        });
+        self.strands.look::<L>(&self.points, sheets, margin);
+    }
+}
+
+/// Ropes last, so that nothing stretches them.
+struct PullRopes<'a>(&'a mut SoftSolver);
+
+impl Kernel for PullRopes<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let SoftSolver { points, bundles, .. } = self.0;
+        let mut pivots: Vec<Pivot<L>> = Vec::new();
+        for bundle in bundles {
+            bundle.solve(points, &mut pivots);
+        }
+    }
+}
+
+/// Where a sheet is still stretched around something solid, sweeps and pushes out again.
+struct SweepWindows<'a, 'b> {
+    solver: &'a mut SoftSolver,
+    solids: &'a mut [Solid<'b>],
+    timing: &'a Timing,
+}
+
+impl Kernel for SweepWindows<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let SoftSolver { points, pieces, lightened, touches, done, saved, .. } = self.solver;
+        let push = Push { recovery: self.timing.recovery * self.timing.small, lightness: 1.0 };
+        for piece in pieces {
+            let Layout::Sheet(sheet) = &mut piece.layout else { continue };
+            let (grid, weave) = (sheet.grid, sheet.weave);
+            if done.is_multiple_of(HOT_EVERY) {
+                let fineness = grid.columns.max(grid.rows);
+                let tolerance = if fineness < FINE { 0.02 } else { 0.04 };
+                sheet.windows.find::<L>(&grid, &weave, points, tolerance);
+                sheet.windows.list_touches(&grid, touches);
+            }
+            let windows = sheet.windows.windows.iter().zip(&sheet.windows.touches);
+            for (window, listed) in windows.filter(|(_, listed)| !listed.is_empty()) {
+                window.save(&grid, &points.position, saved);
+                for _ in 0..PASSES {
+                    grid.sweep::<L>(&mut points.position, &points.inverse_mass, window, &weave);
+                    for &number in listed {
+                        let touch = &mut touches[number as usize];
+                        touch.solve_again::<L>(
+                            points,
+                            lightened,
+                            &mut self.solids[touch.solid as usize],
+                            push,
+                        );
+                    }
+                }
+                window.still(&grid, points, saved);
+            }
+        }
+    }
+}
+
+/// Hot windows are looked for once in so many small steps.
+const HOT_EVERY: u32 = 4;
+/// How often a hot window is swept.
+const PASSES: u32 = 4;
+/// From so many particles along a side on, what is hot is twice as long.
+const FINE: usize = 80;
+
+/// Moves all out of what is solid.
+struct PushOut<'a, 'b> {
+    solver: &'a mut SoftSolver,
+    solids: &'a mut [Solid<'b>],
+    timing: &'a Timing,
+}
+
+impl Kernel for PushOut<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let SoftSolver { points, pieces, lightened, touches, .. } = self.solver;
+        lightened.copy_from_slice(&points.inverse_mass);
+        let push = Push { recovery: self.timing.recovery * self.timing.small, lightness: LIGHTNESS };
+        for touch in touches {
+            let solid = &mut self.solids[touch.solid as usize];
+            if touch.solve::<L>(points, lightened, solid, push) {
+                pieces[touch.piece as usize].rest.leans |= solid.inverse_mass == 0.0;
+                pieces[touch.piece as usize].rest.is_pushed |= solid.inverse_mass > 0.0;
+            }
+        }
+    }
+}

@@ -1,0 +1,255 @@
+//! Ropes against cloth, other ropes and themselves: segments with a radius.
+//!
+//! What may touch is listed every few small steps, with a margin for how far all may get until then. Which side of a
+//! segment something is on is that of the small step's start, so that nothing gets through however fast.
+
+use glam::Vec3;
+
+use super::points::Points;
+use super::tile::{Bounds, Tile};
+use crate::simd::{Lanes, Vec3x8};
+
+/// A segment of a rope.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Segment {
+    pub(super) ends: [u32; 2],
+    /// In m.
+    pub(super) radius: f32,
+    pub(super) friction: f32,
+    /// The rope's number, and the segment's in it.
+    pub(super) rope: u32,
+    pub(super) number: u32,
+    /// How many segments of the same rope are too near along it to touch it; `u32::MAX` = all.
+    pub(super) exempt: u32,
+    /// Whether a particle of the rope is held.
+    pub(super) is_held: bool,
+}
+
+/// A cloth that ropes may touch.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sheeting<'a> {
+    /// The piece's number.
+    pub(super) piece: u32,
+    pub(super) tiles: &'a [Tile],
+    pub(super) boxes: &'a [Bounds],
+    /// In m.
+    pub(super) thickness: f32,
+    pub(super) friction: f32,
+}
+
+/// A particle of cloth near a segment, or a segment near another.
+#[derive(Debug, Clone, Copy)]
+struct Near {
+    /// The particle twice, or the ends of the other segment.
+    a: [u32; 2],
+    b: [u32; 2],
+    /// How far they are kept apart, in m.
+    distance: f32,
+    friction: f32,
+    /// The piece that leans on what is held when they touch; `u32::MAX` = none.
+    leaning: u32,
+}
+
+/// All segments of awake ropes, and what they may touch.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Strands {
+    segments: Vec<Segment>,
+    nears: Vec<Near>,
+}
+
+impl Strands {
+    pub(super) fn reset(&mut self) {
+        self.segments.clear();
+        self.nears.clear();
+    }
+
+    pub(super) fn add(&mut self, segments: impl Iterator<Item = Segment>) {
+        self.segments.extend(segments);
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.segments.is_empty()
+    }
+
+    /// Lists what may touch while nothing moves by more than `margin` (m).
+    #[inline(always)]
+    pub(super) fn look<'a, L: Lanes>(
+        &mut self,
+        points: &Points,
+        sheets: impl Iterator<Item = Sheeting<'a>>,
+        margin: f32,
+    ) {
+        self.nears.clear();
+        let boxes: Vec<Bounds> = self.segments.iter().map(|segment| bounds_of(segment, points)).collect();
+        let all = boxes.iter().fold(Bounds::EMPTY, |all, bounds| all.with(*bounds));
+        for sheet in sheets {
+            for (tile, tile_box) in sheet.tiles.iter().zip(sheet.boxes) {
+                let near = tile_box.grown(sheet.thickness + margin);
+                if !near.meets(&all) {
+                    continue;
+                }
+                for (segment, _) in self.segments.iter().zip(&boxes).filter(|(_, bounds)| near.meets(bounds))
+                {
+                    list_particles::<L>(points, tile, segment, (&sheet, margin), &mut self.nears);
+                }
+            }
+        }
+        self.list_segments(&boxes, margin);
+    }
+
+    /// Pairs of segments: swept along x.
+    fn list_segments(&mut self, boxes: &[Bounds], margin: f32) {
+        let mut order: Vec<usize> = (0..boxes.len()).collect();
+        order.sort_by(|&a, &b| boxes[a].low.x.total_cmp(&boxes[b].low.x).then(a.cmp(&b)));
+        let mut pairs = Vec::new();
+        for (rank, &first) in order.iter().enumerate() {
+            let near = boxes[first].grown(margin);
+            for &second in &order[rank + 1..] {
+                if boxes[second].low.x > near.high.x {
+                    break;
+                }
+                let (a, b) = (first.min(second), first.max(second));
+                if near.meets(&boxes[second]) && may_touch(&self.segments[a], &self.segments[b]) {
+                    pairs.push((a, b));
+                }
+            }
+        }
+        pairs.sort_unstable();
+        self.nears.extend(pairs.into_iter().map(|(a, b)| {
+            let (a, b) = (&self.segments[a], &self.segments[b]);
+            let friction = (a.friction * b.friction).sqrt();
+            let distance = a.radius + b.radius;
+            Near { a: a.ends, b: b.ends, distance, friction, leaning: u32::MAX }
+        }));
+    }
+
+    /// Moves apart what is too close, with friction. Calls `leans` with the pieces of cloth that lean on held ropes.
+    pub(super) fn part(&self, points: &mut Points, mut leans: impl FnMut(u32)) {
+        for near in &self.nears {
+            if near.part(points) && near.leaning != u32::MAX {
+                leans(near.leaning);
+            }
+        }
+    }
+}
+
+fn bounds_of(segment: &Segment, points: &Points) -> Bounds {
+    let [a, b] = segment.ends.map(|place| points.at(place as usize));
+    Bounds { low: a.min(b), high: a.max(b) }.grown(segment.radius)
+}
+
+fn may_touch(a: &Segment, b: &Segment) -> bool {
+    a.rope != b.rope || b.number - a.number > a.exempt
+}
+
+#[inline(always)]
+fn list_particles<L: Lanes>(
+    points: &Points,
+    tile: &Tile,
+    segment: &Segment,
+    (sheet, margin): (&Sheeting<'_>, f32),
+    out: &mut Vec<Near>,
+) {
+    let distance = sheet.thickness + segment.radius;
+    let [start, end] = segment.ends.map(|place| points.at(place as usize));
+    let along = end - start;
+    for &first in &tile.eights {
+        let from = Vec3x8::<L>::read(&points.position, first as usize) - Vec3x8::splat(start);
+        let share = from.dot(Vec3x8::splat(along)) / L::splat(along.length_squared().max(1e-30));
+        let share = share.max(L::splat(0.0)).min(L::splat(1.0));
+        let gap = from - Vec3x8::splat(along) * share;
+        let reach = distance + margin;
+        let is_near = L::splat(reach * reach).greater(gap.length_squared());
+        let mut lanes = is_near.and(points.are_there::<L>(first as usize)).bits();
+        while lanes != 0 {
+            let place = first + lanes.trailing_zeros();
+            lanes &= lanes - 1;
+            let friction = (sheet.friction * segment.friction).sqrt();
+            let leaning = if segment.is_held { sheet.piece } else { u32::MAX };
+            out.push(Near { a: [place; 2], b: segment.ends, distance, friction, leaning });
+        }
+    }
+}
+
+impl Near {
+    /// Of the nearest places of both, as they are: the gap that is missing along the line between them, and friction by
+    /// Coulomb's law on displacements. What has passed the other in this small step is taken back to its side. Tells whether they touched.
+    #[inline(always)]
+    fn part(&self, points: &mut Points) -> bool {
+        let [a, b] = [self.a, self.b].map(|ends| ends.map(|place| place as usize));
+        let (ends_a, ends_b) = (a.map(|place| points.at(place)), b.map(|place| points.at(place)));
+        let [share_a, share_b] = nearest_shares(ends_a, ends_b);
+        let weights = [[1.0 - share_a, share_a], [1.0 - share_b, share_b]];
+        let mix = |ends: [Vec3; 2], weights: [f32; 2]| ends[0] * weights[0] + ends[1] * weights[1];
+        let gap = mix(ends_b, weights[1]) - mix(ends_a, weights[0]);
+        let length = gap.length();
+        if length >= 3.0 * self.distance || length < 1e-9 {
+            return false;
+        }
+        let slip = mix(b.map(|place| points.motion(place)), weights[1])
+            - mix(a.map(|place| points.motion(place)), weights[0]);
+        let before = gap - slip;
+        let has_passed = gap.dot(before) < 0.0;
+        let (normal, apart) =
+            if has_passed { (before.normalize_or(Vec3::Y), -length) } else { (gap / length, length) };
+        let depth = self.distance - apart;
+        let is_point = a[0] == a[1];
+        let mass = |place: usize| points.inverse_mass[place];
+        let mobility_a = if is_point {
+            mass(a[0])
+        } else {
+            mass(a[0]) * weights[0][0] * weights[0][0] + mass(a[1]) * weights[0][1] * weights[0][1]
+        };
+        let mobility_b =
+            mass(b[0]) * weights[1][0] * weights[1][0] + mass(b[1]) * weights[1][1] * weights[1][1];
+        let mobility = mobility_a + mobility_b;
+        if depth <= 0.0 || mobility <= 0.0 {
+            return false;
+        }
+        let across = slip - normal * slip.dot(normal);
+        let grip = (self.friction * depth / across.length().max(1e-9)).min(1.0);
+        // What is deeper than it moved in is moved out without velocity.
+        let braked = depth.min((-slip.dot(normal)).max(0.0));
+        let impulse = (normal * braked - across * grip) / mobility;
+        let out = normal * ((depth - braked) / mobility);
+        for (place, weight) in b.into_iter().zip(weights[1]) {
+            let share = weight * points.inverse_mass[place];
+            points.shift(place, impulse * share);
+            points.carry(place, out * share);
+        }
+        let count = if is_point { 1 } else { 2 };
+        for (place, weight) in a.into_iter().zip(weights[0]).take(count) {
+            let weight = if is_point { 1.0 } else { weight };
+            let share = weight * points.inverse_mass[place];
+            points.shift(place, -impulse * share);
+            points.carry(place, -out * share);
+        }
+        true
+    }
+}
+
+/// Where two segments are nearest to each other: shares from their starts (Ericson, Real-Time Collision Detection,
+/// 5.1.9). One may be a point.
+#[inline(always)]
+fn nearest_shares(a: [Vec3; 2], b: [Vec3; 2]) -> [f32; 2] {
+    let (along_a, along_b, between) = (a[1] - a[0], b[1] - b[0], a[0] - b[0]);
+    let (aa, bb, ab) = (along_a.length_squared(), along_b.length_squared().max(1e-30), along_a.dot(along_b));
+    let (from_a, from_b) = (along_a.dot(between), along_b.dot(between));
+    if aa < 1e-20 {
+        return [0.0, (from_b / bb).clamp(0.0, 1.0)];
+    }
+    let crossing = aa * bb - ab * ab;
+    let share_a = if crossing > 1e-9 * aa * bb {
+        ((ab * from_b - from_a * bb) / crossing).clamp(0.0, 1.0)
+    } else {
+        0.5
+    };
+    let share_b = (ab * share_a + from_b) / bb;
+    if share_b < 0.0 {
+        [(-from_a / aa).clamp(0.0, 1.0), 0.0]
+    } else if share_b > 1.0 {
+        [((ab - from_a) / aa).clamp(0.0, 1.0), 1.0]
+    } else {
+        [share_a, share_b]
+    }
+}

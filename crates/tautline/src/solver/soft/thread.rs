@@ -1,0 +1,119 @@
+//! Sticks one after another, all solved together: rows and columns of a sheet, and ropes, eight side by side.
+//!
+//! For sticks with the directions u_j and the excess lengths C_j, the corrections w (λ_j u_j − λ_{j+1} u_{j+1}) that end
+//! all C at once to first order are those of the tridiagonal system
+//! (w_j + w_{j+1} + ε) λ_j − w_j u_{j−1}·u_j λ_{j−1} − w_{j+1} u_j·u_{j+1} λ_{j+1} = −C_j. Elimination takes one pass down
+//! and one up. The regularisation ε, a share of a particle's inverse mass, keeps folds from being pulled straight at
+//! once; it lets threads give, so that a sweep over the sticks has to follow.
+
+use super::points::{Coordinates, Eights, eights};
+use super::stick::SpanAt;
+use crate::simd::{LANES, Lanes, Vec3x8};
+
+/// ε over the inverse mass of a particle.
+pub(super) const REGULARISATION: f32 = 0.01;
+
+/// Threads side by side: the first knots of all stand next to each other, and so on from knot to knot.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Threads<S> {
+    /// The place of the first knot of the first thread, a multiple of eight, as the next.
+    pub(super) start: usize,
+    /// Places from knot to knot.
+    pub(super) stride: usize,
+    pub(super) knots: usize,
+    /// How many there are, a multiple of eight; some may weigh nothing.
+    pub(super) count: usize,
+    pub(super) spans: S,
+    /// ε, in 1/kg.
+    pub(super) regularisation: f32,
+}
+
+/// What is remembered of eight sticks side by side on the way down: λ_j = remainder + ratio λ_{j+1}.
+#[derive(Clone, Copy)]
+pub(super) struct Pivot<L> {
+    direction: Vec3x8<L>,
+    remainder: L,
+    ratio: L,
+}
+
+impl<S> Threads<S> {
+    /// Solves all threads. `pivots` is memory.
+    #[inline(always)]
+    pub(super) fn solve<L: Lanes>(
+        &self,
+        positions: &mut Coordinates,
+        masses: &[f32],
+        pivots: &mut Vec<Pivot<L>>,
+    ) where
+        S: SpanAt<L>,
+    {
+        let (mut positions, masses) = (Eights::of(positions), eights(masses));
+        for first in self.start / LANES..(self.start + self.count) / LANES {
+            self.eliminate(&positions, masses, first, pivots);
+            self.substitute(&mut positions, masses, first, pivots);
+        }
+    }
+
+    #[inline(always)]
+    fn eliminate<L: Lanes>(
+        &self,
+        positions: &Eights<'_>,
+        masses: &[[f32; LANES]],
+        first: usize,
+        pivots: &mut Vec<Pivot<L>>,
+    ) where
+        S: SpanAt<L>,
+    {
+        let (zero, one) = (L::splat(0.0), L::splat(1.0));
+        let stride = self.stride / LANES;
+        let (mut above, mut mass) = (positions.read::<L>(first), L::read(&masses[first]));
+        let (mut direction, mut remainder, mut inverse) = (Vec3x8::zero(), zero, zero);
+        pivots.clear();
+        for stick in 0..self.knots - 1 {
+            let eight = first + (stick + 1) * stride;
+            let (below, next_mass) = (positions.read(eight), L::read(&masses[eight]));
+            let between = below - above;
+            let length = between.length_squared().max(L::splat(1e-24)).sqrt();
+            let spans = self.spans.span(stick);
+            let free = mass + next_mass;
+            let is_free = free.greater(zero);
+            let excess = is_free.and(length - length.max(spans.low).min(spans.high));
+            let next = between * is_free.and(one / length);
+            // Minus the element beside the diagonal.
+            let beside = mass * direction.dot(next);
+            let ratio = beside * inverse;
+            if let Some(last) = pivots.last_mut() {
+                last.ratio = ratio;
+            }
+            let diagonal = free + L::splat(self.regularisation) + spans.compliance;
+            inverse = one / (diagonal - beside * ratio);
+            remainder = (beside * remainder - excess) * inverse;
+            pivots.push(Pivot { direction: next, remainder, ratio: zero });
+            (above, mass, direction) = (below, next_mass, next);
+        }
+    }
+
+    #[inline(always)]
+    fn substitute<L: Lanes>(
+        &self,
+        positions: &mut Eights<'_>,
+        masses: &[[f32; LANES]],
+        first: usize,
+        pivots: &mut Vec<Pivot<L>>,
+    ) {
+        let (mut multiplier, mut from_below) = (L::splat(0.0), Vec3x8::<L>::zero());
+        for knot in (0..self.knots).rev() {
+            let from_above = match pivots.pop() {
+                Some(pivot) => {
+                    multiplier = pivot.remainder + pivot.ratio * multiplier;
+                    pivot.direction * multiplier
+                }
+                None => Vec3x8::zero(),
+            };
+            let eight = first + knot * self.stride / LANES;
+            let shift = (from_above - from_below) * L::read(&masses[eight]);
+            positions.write(eight, positions.read(eight) + shift);
+            from_below = from_above;
+        }
+    }
+}
