@@ -14,6 +14,7 @@ pub mod build;
 pub mod document;
 mod error;
 pub mod export;
+pub mod judge;
 mod load;
 pub mod mesh_file;
 pub mod random;
