@@ -1,16 +1,34 @@
-//! Whether a segment passes through a triangle, up to the last bit that `f64` is sure of.
+//! Whether segments and triangles pass through triangles, up to the last bit that `f64` is sure of.
 
 use tautline::DVec3;
 
 /// Whether a segment's ends are on opposite sides of a triangle's plane, and the place between them is in the triangle
 /// or on its edge. A segment that only touches the plane does not pass through it: within rounding, an end in the
 /// plane is on neither side.
-pub(super) fn passes_through([start, end]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
-    if side(a, b, c, start) * side(a, b, c, end) >= 0 {
+pub(super) fn passes_through([start, end]: [DVec3; 2], triangle: [DVec3; 3]) -> bool {
+    let [a, b, c] = triangle;
+    side(a, b, c, start) * side(a, b, c, end) < 0 && line_meets([start, end], triangle)
+}
+
+/// Whether an edge of one of two triangles passes through the other.
+pub(super) fn triangles_intersect(a: [DVec3; 3], b: [DVec3; 3]) -> bool {
+    let sides = |of: [DVec3; 3], [a, b, c]: [DVec3; 3]| of.map(|corner| side(a, b, c, corner));
+    let sides_of_b = sides(b, a);
+    // Most pairs: one is on one side of the other's plane, or both are in one plane.
+    if sides_of_b.iter().all(|&side| side == sides_of_b[0]) {
         return false;
     }
-    // The segment's line passes all three edges on one side. An edge it meets belongs to the triangle, or a segment
-    // could slip through the seam between two.
+    let sides_of_a = sides(a, b);
+    (0..3).any(|k| {
+        let next = (k + 1) % 3;
+        sides_of_b[k] * sides_of_b[next] < 0 && line_meets([b[k], b[next]], a)
+            || sides_of_a[k] * sides_of_a[next] < 0 && line_meets([a[k], a[next]], b)
+    })
+}
+
+/// Whether the line through two points passes all three edges of a triangle on one side. An edge it meets belongs to
+/// the triangle, or a segment could slip through the seam between two.
+fn line_meets([start, end]: [DVec3; 2], [a, b, c]: [DVec3; 3]) -> bool {
     let around = [side(start, end, a, b), side(start, end, b, c), side(start, end, c, a)];
     around.iter().all(|&side| side >= 0) || around.iter().all(|&side| side <= 0)
 }

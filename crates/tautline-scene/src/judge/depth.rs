@@ -25,7 +25,7 @@ impl Polytope {
     /// without any face, every point is infinitely deep inside.
     pub fn inside(surface: Sheet<'_>) -> Self {
         let face = |&triangle: &[u32; 3]| {
-            let [a, b, c] = surface.corners(triangle)?;
+            let [a, b, c] = surface.corners(triangle)?.map(Vec3::as_dvec3);
             let normal = (b - a).cross(c - a).try_normalize()?;
             Some(Face { normal, offset: normal.dot(a) })
         };

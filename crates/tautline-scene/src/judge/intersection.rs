@@ -2,7 +2,7 @@
 
 use tautline::{DVec3, Vec3};
 
-use super::crossing::passes_through;
+use super::crossing::{passes_through, triangles_intersect};
 use super::tree::{Bounds, Tree};
 
 /// A triangulated surface as it lies now.
@@ -44,7 +44,7 @@ pub fn intersections(sheets: &[Sheet<'_>]) -> Vec<[TriangleId; 2]> {
     let mut found = Vec::new();
     soup.tree.pairs(&mut |a, b| {
         let (a, b) = (&soup.triangles[a as usize], &soup.triangles[b as usize]);
-        if !a.shares_corner(b) && a.intersects(b) {
+        if !a.shares_corner(b) && triangles_intersect(a.places(), b.places()) {
             found.push([a.id.min(b.id), a.id.max(b.id)]);
         }
     });
@@ -58,11 +58,11 @@ pub fn rope_pierces(rope: &[Vec3], sheets: &[Sheet<'_>]) -> Vec<Pierce> {
     let soup = Soup::of(sheets);
     let mut found = Vec::new();
     for (segment, ends) in rope.windows(2).enumerate() {
-        let ends = [ends[0].as_dvec3(), ends[1].as_dvec3()];
         if ends.iter().all(|end| end.is_finite()) {
-            soup.tree.overlapping(&Bounds::around(&ends), &mut |item| {
+            let places = [ends[0].as_dvec3(), ends[1].as_dvec3()];
+            soup.tree.overlapping(&Bounds::around(ends), &mut |item| {
                 let triangle = &soup.triangles[item as usize];
-                if passes_through(ends, triangle.corners) {
+                if passes_through(places, triangle.places()) {
                     found.push(Pierce { segment, triangle: triangle.id });
                 }
             });
@@ -81,7 +81,7 @@ struct Soup {
 struct Triangle {
     id: TriangleId,
     indices: [u32; 3],
-    corners: [DVec3; 3],
+    corners: [Vec3; 3],
 }
 
 impl Soup {
@@ -104,21 +104,18 @@ impl Soup {
 
 impl Sheet<'_> {
     /// The corners of a triangle, if they are all there and finite.
-    pub(super) fn corners(&self, [a, b, c]: [u32; 3]) -> Option<[DVec3; 3]> {
-        let corner =
-            |index: u32| self.positions.get(index as usize).filter(|p| p.is_finite()).map(|p| p.as_dvec3());
+    pub(super) fn corners(&self, [a, b, c]: [u32; 3]) -> Option<[Vec3; 3]> {
+        let corner = |index: u32| self.positions.get(index as usize).copied().filter(|p| p.is_finite());
         Some([corner(a)?, corner(b)?, corner(c)?])
     }
 }
 
 impl Triangle {
-    fn shares_corner(&self, other: &Self) -> bool {
-        self.id.sheet == other.id.sheet && self.indices.iter().any(|index| other.indices.contains(index))
+    fn places(&self) -> [DVec3; 3] {
+        self.corners.map(Vec3::as_dvec3)
     }
 
-    fn intersects(&self, other: &Self) -> bool {
-        let edges = |[a, b, c]: [DVec3; 3]| [[a, b], [b, c], [c, a]];
-        edges(self.corners).into_iter().any(|edge| passes_through(edge, other.corners))
-            || edges(other.corners).into_iter().any(|edge| passes_through(edge, self.corners))
+    fn shares_corner(&self, other: &Self) -> bool {
+        self.id.sheet == other.id.sheet && self.indices.iter().any(|index| other.indices.contains(index))
     }
 }

@@ -70,6 +70,7 @@ pub fn sheet_edges(at_rest: Sheet<'_>) -> Vec<Edge> {
     let mut edges: Vec<Edge> = Vec::new();
     for &triangle in at_rest.triangles {
         let Some([a, b, c]) = at_rest.corners(triangle) else { continue };
+        let [a, b, c] = [a, b, c].map(Vec3::as_dvec3);
         let [i, j, k] = triangle;
         let sides = [([i, j], a.distance(b)), ([j, k], b.distance(c)), ([k, i], c.distance(a))];
         edges.extend(sides.map(|([i, j], rest_length)| Edge { ends: [i.min(j), i.max(j)], rest_length }));

@@ -1,19 +1,19 @@
 //! A tree over boxes: which of them overlap. It does not mind how they lie, so that a thousand boxes in one plane, or
 //! with one x, take no longer than any others.
 
-use tautline::DVec3;
+use tautline::Vec3;
 
-/// A box in the axes of the world; its faces belong to it.
+/// A box in the axes of the world; its faces belong to it. In `f32`, as the positions it is around, so that it is exact.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bounds {
-    low: DVec3,
-    high: DVec3,
+    low: Vec3,
+    high: Vec3,
 }
 
 impl Bounds {
     /// The smallest around some points.
-    pub(super) fn around(points: &[DVec3]) -> Self {
-        let nothing = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
+    pub(super) fn around(points: &[Vec3]) -> Self {
+        let nothing = Self { low: Vec3::INFINITY, high: Vec3::NEG_INFINITY };
         points.iter().fold(nothing, |all, &point| all.joined(&Self { low: point, high: point }))
     }
 
@@ -67,7 +67,7 @@ impl Tree {
         // Twice the middles: only their order counts.
         let middle = |item: &u32| bounds(item).low + bounds(item).high;
         let (least, most) =
-            items.iter().map(middle).fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(least, most), middle| {
+            items.iter().map(middle).fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(least, most), middle| {
                 (least.min(middle), most.max(middle))
             });
         let axis = (most - least).max_position();
@@ -140,14 +140,12 @@ impl Tree {
 
 #[cfg(test)]
 mod tests {
-    use tautline::Vec3;
-
     use super::*;
     use crate::random::Random;
 
     fn boxes(count: usize, flatten: Vec3) -> Vec<Bounds> {
         let mut random = Random::new(count as u64);
-        let mut point = || (random.in_cube(1.0) * flatten).as_dvec3();
+        let mut point = || random.in_cube(1.0) * flatten;
         (0..count)
             .map(|_| {
                 let middle = point();
