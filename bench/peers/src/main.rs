@@ -1,5 +1,5 @@
 //! tautline, rapier3d and Box3D on the same scenes, in turns: how long a step takes, how deep bodies penetrate, how
-//! much they move at rest. README.md says what is compared and what building it takes.
+//! much cloth is stretched and tangled, how much moves at rest. README.md says what is compared and what building it takes.
 
 mod args;
 mod box3d;
