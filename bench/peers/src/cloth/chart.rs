@@ -29,16 +29,16 @@ struct Bar {
     contender: Contender,
     /// Per step.
     milliseconds: f64,
-    /// In %.
-    stretch: f64,
+    /// In %; `None` if the cloth fell off, where it is not stretched.
+    stretch: Option<f64>,
 }
 
 /// What the results look like.
 pub(crate) fn chart(all: &[Series]) -> Chart {
     let bar = |series: &Series| {
         let summary = series.summary();
-        let (milliseconds, stretch) = (summary.milliseconds, summary.max_stretch);
-        Bar { contender: series.contender, milliseconds, stretch }
+        let stretch = summary.is_held.then_some(summary.max_stretch);
+        Bar { contender: series.contender, milliseconds: summary.milliseconds, stretch }
     };
     let group = |scene: &[Series]| Group { n: scene[0].n, bars: scene.iter().map(bar).collect() };
     let panel = |scenes: &[Series]| {
@@ -112,7 +112,8 @@ where
                 area.draw(&text(what, relative(area, (x, y - up * s)), 11, ink, HPos::Center, scale))
             };
             label(&three_digits(bar.milliseconds), 27, INK)?;
-            label(&format!("{} %", two_digits(bar.stretch)), 14, FAINT)?;
+            let below = bar.stretch.map_or("fell".into(), |stretch| format!("{} %", two_digits(stretch)));
+            label(&below, 14, FAINT)?;
         }
         let (x, y) = axes.backend_coord(&(place as f64, low));
         let label = format!("{0} × {0}", group.n);
@@ -158,7 +159,7 @@ mod tests {
                 contenders.iter().zip([0.1, 1.0, 10.0, 10.0]).map(|(&(make, self_collision), time)| Bar {
                     contender: Contender { make, self_collision },
                     milliseconds: time,
-                    stretch: 12.34,
+                    stretch: (time > 0.1).then_some(12.34),
                 });
             Group { n, bars: bars.collect() }
         };
@@ -169,7 +170,9 @@ mod tests {
     #[test]
     fn the_chart_names_what_it_shows() {
         let svg = svg(&bars()).unwrap();
-        for text in ["less is better", "on a cube", "on a rope", "100 × 100", "rapier", "10.0", "12 %"] {
+        for text in
+            ["less is better", "on a cube", "on a rope", "100 × 100", "rapier", "10.0", "12 %", "fell"]
+        {
             assert!(svg.contains(text), "{text} is not in the SVG");
         }
     }
