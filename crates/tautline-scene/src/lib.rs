@@ -11,6 +11,7 @@
 )]
 
 pub mod build;
+pub mod cloth_trials;
 pub mod document;
 mod error;
 pub mod export;
