@@ -1,21 +1,18 @@
 //! Time per body and step of all engines, as bars: one panel per phase, one group per number of bodies.
 
-use std::error::Error;
-use std::path::{Path, PathBuf};
-use std::sync::Once;
-
 use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::register_font;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-use tautline_scene::render::Image;
+use plotters::style::text_anchor::HPos;
 
-use crate::Failure;
+use crate::canvas::{BOX3D, Drawn, FAINT, INK, OURS, Picture, RAPIER, draw_legend, relative, text};
 use crate::compare::{FLYING, Phase, SETTLED, Series};
 use crate::engine::Contender;
 
+/// The whole chart.
+pub(crate) struct Chart(Vec<Panel>);
+
 /// Bars of one phase.
-pub(crate) struct Panel {
+struct Panel {
     title: String,
     groups: Vec<Group>,
 }
@@ -32,30 +29,14 @@ struct Bar {
     microseconds: f64,
 }
 
-/// In px of the SVG; the PNG has `PNG_SCALE` times as many, so that it is sharp on any screen.
-const SIZE: (u32, u32) = (860, 400);
-const PNG_SCALE: u32 = 2;
-
-const INK: RGBColor = RGBColor(40, 44, 52);
-const FAINT: RGBColor = RGBColor(118, 124, 134);
-/// Ours, by order of substeps: blue, which everybody can tell from orange and grey.
-const OURS: [RGBColor; 3] = [RGBColor(31, 95, 191), RGBColor(122, 168, 232), RGBColor(186, 210, 243)];
-const RAPIER: RGBColor = RGBColor(224, 122, 32);
-const BOX3D: RGBColor = RGBColor(150, 155, 164);
-
-/// Where the chart goes: `file` as SVG and as PNG.
-pub(crate) fn files(file: &Path) -> [PathBuf; 2] {
-    ["svg", "png"].map(|extension| file.with_extension(extension))
-}
-
 /// The phases worth a picture.
-pub(crate) fn panels(all: &[Series]) -> Vec<Panel> {
+pub(crate) fn chart(all: &[Series]) -> Chart {
     let panel = |phase: Phase, what: &str| {
         let [begin, end] = phase.steps();
         let groups = all.chunk_by(|a, b| a.n == b.n).map(|scene| group(scene, phase));
         Panel { title: format!("{what} (steps {begin}–{end})"), groups: groups.collect() }
     };
-    vec![panel(FLYING, "Flying and colliding"), panel(SETTLED, "Settled pile")]
+    Chart(vec![panel(FLYING, "Flying and colliding"), panel(SETTLED, "Settled pile")])
 }
 
 fn group(scene: &[Series], phase: Phase) -> Group {
@@ -66,78 +47,29 @@ fn group(scene: &[Series], phase: Phase) -> Group {
     Group { n: scene.first().map_or(0, |series| series.n), bars: bars.collect() }
 }
 
-/// The chart as text.
-pub(crate) fn svg(panels: &[Panel]) -> Result<String, Failure> {
-    let mut text = String::new();
-    draw(panels, &SVGBackend::with_string(&mut text, SIZE).into_drawing_area(), 1).map_err(plain)?;
-    Ok(text)
-}
+impl Picture for Chart {
+    const SIZE: (u32, u32) = (860, 400);
 
-/// Writes the chart as a picture.
-pub(crate) fn write_png(panels: &[Panel], file: &Path) -> Result<(), Failure> {
-    Ok(tautline_scene::export::write_png(&image(panels)?, file)?)
-}
-
-fn image(panels: &[Panel]) -> Result<Image, Failure> {
-    let (width, height) = (SIZE.0 * PNG_SCALE, SIZE.1 * PNG_SCALE);
-    let mut bytes = vec![0; (width * height * 3) as usize];
-    let area = BitMapBackend::with_buffer(&mut bytes, (width, height)).into_drawing_area();
-    draw(panels, &area, PNG_SCALE).map_err(plain)?;
-    drop(area);
-    let (pixels, _) = bytes.as_chunks();
-    Ok(Image { width: width as usize, height: height as usize, pixels: pixels.to_vec() })
-}
-
-fn plain(error: Box<dyn Error>) -> Failure {
-    format!("chart: {error}").into()
-}
-
-type Drawn = Result<(), Box<dyn Error>>;
-
-/// Draws the chart `scale` times as large as [`SIZE`].
-fn draw<B: DrawingBackend>(panels: &[Panel], area: &DrawingArea<B, Shift>, scale: u32) -> Drawn
-where
-    B::ErrorType: 'static,
-{
-    register_font_once();
-    area.fill(&WHITE)?;
-    let s = scale as i32;
-    area.draw(&text(
-        "CPU time per body and step, in µs, one thread: less is better",
-        (24 * s, 18 * s),
-        19,
-        INK,
-        HPos::Left,
-        scale,
-    ))?;
-    draw_legend(panels, area, scale)?;
-    let body = area.margin(72 * s, 8 * s, 16 * s, 16 * s);
-    let tallest = panels.iter().flat_map(|panel| &panel.groups).flat_map(|group| &group.bars);
-    let tallest = tallest.map(|bar| bar.microseconds).fold(1e-6, f64::max);
-    for (panel, area) in panels.iter().zip(body.split_evenly((1, panels.len()))) {
-        draw_panel(panel, tallest, &area, scale)?;
+    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> Drawn
+    where
+        B::ErrorType: 'static,
+    {
+        area.fill(&WHITE)?;
+        let s = scale as i32;
+        let title = "CPU time per body and step, in µs, one thread: less is better";
+        area.draw(&text(title, (24 * s, 18 * s), 19, INK, HPos::Left, scale))?;
+        let groups = || self.0.iter().flat_map(|panel| &panel.groups);
+        let bars = groups().next().map_or(&[][..], |group| &group.bars);
+        let names = bars.iter().map(|bar| bar.contender.label()).zip(colors(bars));
+        draw_legend(&names.collect::<Vec<_>>(), area, scale)?;
+        let body = area.margin(72 * s, 8 * s, 16 * s, 16 * s);
+        let tallest = groups().flat_map(|group| &group.bars).map(|bar| bar.microseconds).fold(1e-6, f64::max);
+        for (panel, area) in self.0.iter().zip(body.split_evenly((1, self.0.len()))) {
+            draw_panel(panel, tallest, &area, scale)?;
+        }
+        area.present()?;
+        Ok(())
     }
-    area.present()?;
-    Ok(())
-}
-
-/// A square and a name for each engine, in one line.
-fn draw_legend<B: DrawingBackend>(panels: &[Panel], area: &DrawingArea<B, Shift>, scale: u32) -> Drawn
-where
-    B::ErrorType: 'static,
-{
-    let s = scale as i32;
-    let mut x = 24 * s;
-    let bars = panels.iter().flat_map(|panel| &panel.groups).next().map_or(&[][..], |group| &group.bars);
-    for (bar, color) in bars.iter().zip(colors(bars)) {
-        let square = [(x, 49 * s), (x + 12 * s, 61 * s)];
-        area.draw(&Rectangle::new(square, color.filled()))?;
-        let label = bar.contender.label();
-        area.draw(&text(&label, (x + 18 * s, 49 * s), 14, INK, HPos::Left, scale))?;
-        let (width, _) = area.estimate_text_size(&label, &font(14, INK, scale))?;
-        x += 18 * s + width as i32 + 26 * s;
-    }
-    Ok(())
 }
 
 fn draw_panel<B: DrawingBackend>(
@@ -187,47 +119,17 @@ fn colors(bars: &[Bar]) -> Vec<RGBColor> {
     bars.iter().map(color).collect()
 }
 
-/// From the coordinates of the whole picture to those of a part of it.
-fn relative<B: DrawingBackend>(area: &DrawingArea<B, Shift>, (x, y): (i32, i32)) -> (i32, i32) {
-    let (left, top) = area.get_base_pixel();
-    (x - left, y - top)
-}
-
-/// A line of text; `place` is the middle or the left end of its upper edge.
-fn text(
-    what: &str,
-    place: (i32, i32),
-    size: u32,
-    color: RGBColor,
-    anchor: HPos,
-    scale: u32,
-) -> Text<'static, (i32, i32), String> {
-    Text::new(what.to_owned(), place, font(size, color, scale).pos(Pos::new(anchor, VPos::Top)))
-}
-
-fn font(size: u32, color: RGBColor, scale: u32) -> TextStyle<'static> {
-    ("sans-serif", size * scale).into_font().color(&color)
-}
-
 /// 4000 → "4 000".
 fn grouped(n: usize) -> String {
     if n < 1000 { n.to_string() } else { format!("{} {:03}", grouped(n / 1000), n % 1000) }
 }
 
-/// A picture needs a font of its own: not every machine has one, and none the same.
-fn register_font_once() {
-    static ONCE: Once = Once::new();
-    ONCE.call_once(|| {
-        // It fails only for bytes that are no font; drawing would then say that there is none.
-        let _ = register_font("sans-serif", FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT);
-    });
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::canvas::{image, svg};
 
-    fn bars() -> Vec<Panel> {
+    fn bars() -> Chart {
         let contenders = [
             Contender::Ours { substeps: 8 },
             Contender::Ours { substeps: 4 },
@@ -243,7 +145,7 @@ mod tests {
                 .collect(),
         };
         let panel = |title: &str| Panel { title: title.into(), groups: [200, 4000].map(group).into() };
-        vec![panel("Flying"), panel("Settled")]
+        Chart(vec![panel("Flying"), panel("Settled")])
     }
 
     #[test]

@@ -89,7 +89,7 @@ impl Series {
 }
 
 /// Of ascending values, at least one.
-fn median(values: &[f64]) -> f64 {
+pub(crate) fn median(values: &[f64]) -> f64 {
     let upper = values.len() / 2;
     0.5 * (values[upper] + values[(values.len() - 1) / 2])
 }
@@ -134,7 +134,7 @@ fn repeat_all(scene: &Scene, contenders: &[Contender], told: &dyn Fn()) -> Resul
 }
 
 /// A bar on standard error, if that is a terminal; it counts bodies × steps, which time goes with.
-fn progress(total: u64) -> ProgressBar {
+pub(crate) fn progress(total: u64) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr_with_hz(4));
     // The template is fixed: if it were wrong, the bar would look plainer.
     let style = ProgressStyle::with_template("{msg:24} {bar:32} {percent:>3} %  {elapsed}, {eta} to go")

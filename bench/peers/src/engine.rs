@@ -67,7 +67,7 @@ impl Contender {
     }
 }
 
-fn locked_version(package: &str) -> &'static str {
+pub(crate) fn locked_version(package: &str) -> &'static str {
     let name = format!("name = \"{package}\"");
     let mut lines = include_str!("../Cargo.lock").lines().skip_while(|&line| line != name);
     let version = lines.nth(1).and_then(|line| line.strip_prefix("version = "));

@@ -1,9 +1,11 @@
 //! tautline, rapier3d and Box3D on the same scenes, in turns: how long a step takes, how deep bodies penetrate, how
-//! much they move at rest. README.md says what is compared and what building it takes.
+//! much cloth is stretched and tangled, how much moves at rest. README.md says what is compared and what building it takes.
 
 mod args;
 mod box3d;
+mod canvas;
 mod chart;
+mod cloth;
 mod compare;
 mod engine;
 mod icosahedron;
@@ -16,13 +18,15 @@ mod scene;
 
 use std::error::Error;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
+use serde_json::Map;
 use tautline_scene::export::{check_writable, write_atomically};
 
 use args::Arguments;
+use canvas::Picture;
 
 /// Whatever ends the comparison early.
 type Failure = Box<dyn Error + Send + Sync>;
@@ -38,25 +42,51 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let chart_files = arguments.chart.as_deref().map(chart::files);
+    let charts = arguments.chart.as_deref().map(|file| (file.to_owned(), cloth_chart(file)));
+    let chart_files =
+        charts.iter().flat_map(|(bodies, cloth)| [bodies, cloth]).flat_map(|file| canvas::files(file));
     // A comparison takes minutes: better refused before than after.
-    for file in arguments.json.iter().chain(chart_files.iter().flatten()) {
-        check_writable(file)?;
+    for file in arguments.json.iter().cloned().chain(chart_files) {
+        check_writable(&file)?;
     }
-    let plan = arguments.plan()?;
+    let (plan, cloth_plan) = (arguments.plan()?, arguments.cloth_plan()?);
     // One thread for all: tautline spreads its work over the pool that a step is called from.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-    let results = pool.install(|| compare::compare(&plan))?;
-    print!("{}", report::table(&results));
-    if let Some(file) = &arguments.json {
-        write_text(file, &report::json(&results)?)?;
+    let mut json = Map::new();
+    if !plan.scenes.is_empty() {
+        let results = pool.install(|| compare::compare(&plan))?;
+        print!("{}", report::table(&results));
+        json.insert("e1".into(), report::json_rows(&results).into());
+        if let Some((file, _)) = &charts {
+            write_chart(&chart::chart(&results), file)?;
+        }
     }
-    if let Some([svg, png]) = &chart_files {
-        let bars = chart::panels(&results);
-        write_text(svg, &chart::svg(&bars)?)?;
-        chart::write_png(&bars, png)?;
+    if !cloth_plan.supports.is_empty() {
+        let results = pool.install(|| cloth::compare(&cloth_plan))?;
+        print!("{}", cloth::table(&results));
+        for &support in &cloth_plan.supports {
+            json.insert(support.key().into(), cloth::json_rows(&results, support).into());
+        }
+        if let Some((_, file)) = &charts {
+            write_chart(&cloth::chart(&results), file)?;
+        }
+    }
+    if let Some(file) = &arguments.json {
+        write_text(file, &(serde_json::to_string_pretty(&json)? + "\n"))?;
     }
     Ok(())
+}
+
+/// `peers.svg` → `peers-cloth.svg`.
+fn cloth_chart(file: &Path) -> PathBuf {
+    let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+    file.with_file_name(format!("{stem}-cloth.svg"))
+}
+
+fn write_chart(picture: &impl Picture, file: &Path) -> Result<(), Failure> {
+    let [svg, png] = canvas::files(file);
+    write_text(&svg, &canvas::svg(picture)?)?;
+    canvas::write_png(picture, &png)
 }
 
 fn write_text(path: &Path, text: &str) -> Result<(), Failure> {

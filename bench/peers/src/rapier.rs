@@ -63,10 +63,10 @@ fn description(body: &State) -> RigidBodyBuilder {
 }
 
 /// Both are vectors of glam, but of different versions.
-fn to_rapier(vector: Vec3) -> Vector {
+pub(crate) fn to_rapier(vector: Vec3) -> Vector {
     Vector::from_array(vector.to_array())
 }
 
-fn from_rapier(vector: Vector) -> Vec3 {
+pub(crate) fn from_rapier(vector: Vector) -> Vec3 {
     Vec3::from_array(vector.to_array())
 }

@@ -1,8 +1,7 @@
 //! What is printed and written: a table for people, JSON for programs.
 
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Value};
 
-use crate::Failure;
 use crate::compare::{EARLY, FLYING, LATE, Phase, SETTLED, Series};
 use crate::engine::Contender;
 
@@ -53,7 +52,7 @@ fn cells(series: &Series, phase: Phase, fastest_peer: Option<f64>) -> [String; 1
 }
 
 /// Columns as wide as needed: the engine's name to the left, the others to the right.
-fn aligned<const COLUMNS: usize>(rows: &[[String; COLUMNS]]) -> String {
+pub(crate) fn aligned<const COLUMNS: usize>(rows: &[[String; COLUMNS]]) -> String {
     let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
     let widths: [usize; COLUMNS] = std::array::from_fn(width);
     let mut text = String::new();
@@ -68,8 +67,8 @@ fn aligned<const COLUMNS: usize>(rows: &[[String; COLUMNS]]) -> String {
     text
 }
 
-/// `{"e1": […]}`: a row per scene, phase and number of substeps of ours, with the same peers beside each.
-pub(crate) fn json(all: &[Series]) -> Result<String, Failure> {
+/// Rows of `e1`: one per scene, phase and number of substeps of ours, with the same peers beside each.
+pub(crate) fn json_rows(all: &[Series]) -> Vec<Value> {
     let mut rows = Vec::new();
     for scene in all.chunk_by(|a, b| a.n == b.n) {
         for phase in [FLYING, SETTLED] {
@@ -77,7 +76,7 @@ pub(crate) fn json(all: &[Series]) -> Result<String, Failure> {
             rows.extend(ours.map(|ours| Value::Object(row(ours, scene, phase))));
         }
     }
-    Ok(serde_json::to_string_pretty(&json!({ "e1": rows }))? + "\n")
+    rows
 }
 
 fn row(ours: &Series, scene: &[Series], phase: Phase) -> Map<String, Value> {
@@ -105,6 +104,8 @@ fn row(ours: &Series, scene: &[Series], phase: Phase) -> Map<String, Value> {
 
 #[cfg(test)]
 mod tests {
+    use serde_json::json;
+
     use super::*;
     use crate::judge::Verdict;
     use crate::measure::Run;
@@ -132,15 +133,14 @@ mod tests {
 
     #[test]
     fn json_has_a_row_for_every_phase_and_setting_with_all_engines() {
-        let value: Value = serde_json::from_str(&json(&all()).unwrap()).unwrap();
-        let rows = value["e1"].as_array().unwrap();
+        let rows = json_rows(&all());
         let kinds: Vec<_> = rows
             .iter()
             .map(|row| (row["phase"].as_str().unwrap(), row["substeps"].as_u64().unwrap()))
             .collect();
         assert_eq!(kinds, [("flying", 8), ("flying", 4), ("settled", 8), ("settled", 4)]);
         assert_eq!(rows[3]["ours_ms"], 0.2);
-        for row in rows {
+        for row in &rows {
             assert_eq!(
                 (&row["n"], &row["rapier_ms"], &row["box3d_ms"]),
                 (&json!(200), &json!(0.5), &json!(1.0))

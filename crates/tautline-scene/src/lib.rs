@@ -11,9 +11,11 @@
 )]
 
 pub mod build;
+pub mod cloth_trials;
 pub mod document;
 mod error;
 pub mod export;
+pub mod judge;
 mod load;
 pub mod mesh_file;
 pub mod random;
