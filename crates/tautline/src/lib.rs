@@ -4,9 +4,10 @@
 //! inertia are exact; pose, velocity and angular velocity are read from them. A [`Cloth`] is a sheet of particles, a
 //! [`Rope`] a line, and a [`TrussBody`] a rigid body of particles held by sticks.
 //!
-//! Rigid bodies of four particles are moved in substeps with soft contacts and exact joints. Particles held by sticks
-//! are moved by Verlet's integrator, and whatever is wrong then, a penetration or a stick of the wrong length, is
-//! mended by moving particles. The two do not touch each other yet: with cloth and rope use trusses.
+//! Rigid bodies of four particles are moved in substeps with soft contacts and exact joints. The particles of cloth and
+//! rope are moved in small steps by Verlet's integrator, and whatever is wrong then, a penetration or a stick of the wrong
+//! length, is mended by moving particles. They all touch each other, and cloth itself. Trusses touch each other only,
+//! unless cloth and rope are moved by the paper's solver too: see [`Settings::cloth`].
 //!
 //! ```
 //! use std::sync::Arc;
@@ -28,17 +29,16 @@
 //! # Ok::<(), tautline::Error>(())
 //! ```
 //!
-//! A cloth over a truss:
+//! A cloth over a cube:
 //!
 //! ```
 //! use std::sync::Arc;
-//! use tautline::mesh::primitives;
-//! use tautline::{Cloth, HalfSpace, Settings, Truss, TrussBody, Vec3, World};
+//! use tautline::{Cloth, HalfSpace, RigidBody, Settings, Shape, Vec3, World};
 //!
 //! let mut world = World::new(Settings::default())?;
 //! world.add(HalfSpace::floor(0.0))?;
-//! let cube = Arc::new(Truss::from_mesh(&primitives::cube(1.0)?)?);
-//! world.add(TrussBody::new(&cube).position(Vec3::Y * 0.5).fixed())?;
+//! let cube = Arc::new(Shape::cuboid(Vec3::splat(0.5))?);
+//! world.add(RigidBody::new(&cube).position(Vec3::Y * 0.5).fixed())?;
 //! let cloth = world.add(Cloth::grid(12, 12, 2.0, 2.0).position(Vec3::Y * 1.2))?;
 //! for _ in 0..60 {
 //!     world.step(1.0 / 60.0)?;

@@ -10,7 +10,7 @@ use crate::report::{Clock, Fault, Phase, StepReport, Stopwatch};
 use crate::rest::{put_to_sleep, wake_touched};
 use crate::settings::ClothSolver;
 use crate::solver::paper::{relax_bodies, separate};
-use crate::solver::soft::wake_soft;
+use crate::solver::soft::sleepers_near_movers;
 use crate::world::{Scratch, World};
 
 /// How many times faster than what puts a body to sleep is what wakes it.
@@ -39,15 +39,13 @@ impl World {
         let mut report = StepReport::default();
         let mut watch = Stopwatch::start(clock);
         let h = dt / self.settings.substeps as f32;
+        self.wake_around_soft();
         self.begin_rigid(h, &mut report, &mut watch);
         let cloth = self.settings.cloth;
         let has_matter = self.bodies.iter().any(|body| body.is_relaxed(cloth));
         self.scratch.contacts.clear();
         let lent = self.lend_weight();
-        if cloth == ClothSolver::SmallSteps {
-            wake_soft(&mut self.bodies, &self.particles, self.settings.sleep);
-            self.soft.begin(&self.bodies, &self.particles, &self.settings, h);
-        }
+        self.begin_soft(h);
         for index in 0..self.settings.substeps {
             self.pull_grabs(h, (index + 1) as f32 / self.settings.substeps as f32);
             self.rigid.substep(&self.settings, h, index == 0);
@@ -68,6 +66,24 @@ impl World {
         report.seconds = watch.finish();
         report.awake_bodies = self.bodies.iter().filter(|body| body.is_awake()).count();
         Ok(report)
+    }
+
+    /// Reads cloth and rope, if they move in small steps.
+    fn begin_soft(&mut self, h: f32) {
+        if self.settings.cloth == ClothSolver::SmallSteps {
+            self.soft.begin(&self.bodies, &self.particles, &self.settings, h);
+        } else {
+            self.soft.clear();
+        }
+    }
+
+    /// Wakes cloth and rope near what moves, and rigid bodies near cloth and rope that moves.
+    fn wake_around_soft(&mut self) {
+        if self.settings.cloth == ClothSolver::SmallSteps {
+            for body in sleepers_near_movers(&self.bodies, &self.particles, self.settings.sleep) {
+                self.wake_body(body);
+            }
+        }
     }
 
     /// Finds where rigid bodies touch, once for all substeps.

@@ -96,11 +96,8 @@ impl Default for Scene {
 
 impl Scene {
     /// Whether its rigid bodies are trusses of sticks.
-    ///
-    /// Beside cloth and rope they are so under the default solver too, until bodies of four particles meet those.
     pub fn has_trusses(&self) -> bool {
-        let is_deformable = |body: &Body| matches!(body, Body::Cloth(_) | Body::Rope(_));
-        self.settings.solver == Solver::Paper || self.bodies.iter().any(is_deformable)
+        self.settings.solver == Solver::Paper
     }
 }
 

@@ -81,7 +81,7 @@ impl Settings {
 pub enum Solver {
     /// The reference: bodies of sticks, hit faces, ordered relaxation.
     Paper,
-    /// Substeps: rigid bodies of four particles with soft contacts, and cloth and rope as in the paper.
+    /// Substeps: rigid bodies of four particles with soft contacts; small steps for cloth and rope.
     #[default]
     Default,
 }

@@ -27,7 +27,7 @@ fn catenary(p: &Parameters) -> Scene {
         ..Rope::default()
     };
     let bodies = vec![Body::HalfSpace(HalfSpace::default()), Body::Rope(rope)];
-    let settings = Settings { damping: Some(1.0), ..in_small_substeps() };
+    let settings = Settings { damping: Some(1.0), ..Settings::default() };
     Scene { seconds: 6.0, record_every: 2, settings, bodies, ..Scene::default() }
 }
 
@@ -47,13 +47,8 @@ fn whip(p: &Parameters) -> Scene {
         ..Rope::default()
     };
     let bodies = vec![Body::HalfSpace(HalfSpace::default()), Body::Rope(rope)];
-    let settings = Settings { damping: Some(0.1), ..in_small_substeps() };
+    let settings = Settings { damping: Some(0.1), ..Settings::default() };
     Scene { seconds: 6.0, record_every: 2, settings, bodies, ..Scene::default() }
-}
-
-/// A long chain of sticks is only as stiff as its steps are small.
-fn in_small_substeps() -> Settings {
-    Settings { substeps: Some(64), ..Settings::default() }
 }
 
 /// A rope's points, equally far along the catenary of `length` m between two ends `span` m apart at `height` m.

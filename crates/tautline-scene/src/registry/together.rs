@@ -4,8 +4,7 @@ use tautline::Vec3;
 
 use super::{NamedScene, Parameter, Parameters};
 use crate::document::{
-    Body, Camera, Cloth, HalfSpace, Pin, Rigid, Rope, Rotation, Scene, Settings, Shape, SheetPlace, Surface,
-    Thread,
+    Body, Camera, Cloth, HalfSpace, Pin, Rigid, Rope, Rotation, Scene, Shape, SheetPlace, Surface, Thread,
 };
 use crate::random::Random;
 
@@ -39,9 +38,8 @@ fn hammock(p: &Parameters) -> Scene {
         bending: Some(2.0),
         ..Rope::default()
     }));
-    let settings = Settings { substeps: Some(16), ..Settings::default() };
     let camera = Camera { eye: [3.4, 2.9, 4.6], target: [0.0, 1.0, 0.0], fov: 34.0 };
-    Scene { seconds: 4.0, record_every: 2, settings, bodies, camera: Some(camera), ..Scene::default() }
+    Scene { seconds: 4.0, record_every: 2, bodies, camera: Some(camera), ..Scene::default() }
 }
 
 /// Four to a layer.

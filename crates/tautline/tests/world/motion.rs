@@ -1,7 +1,7 @@
 //! Bodies that fall, fly, swing, slide and rest, against closed forms.
 
 use tautline::mesh::primitives;
-use tautline::{BodyHandle, HalfSpace, Relaxation, Rope, Settings, TrussBody, Vec3, World};
+use tautline::{BodyHandle, ClothSolver, HalfSpace, Relaxation, Rope, Settings, TrussBody, Vec3, World};
 
 use crate::{DT, cube, icosahedron, run, truss, weightless};
 
@@ -95,7 +95,7 @@ fn a_reversed_flight_returns() {
 #[test]
 fn a_particle_on_a_stick_circles_as_projection_predicts() {
     let relaxation = Relaxation { tolerance: 0.0, ..Settings::paper().relaxation };
-    let settings = Settings { substeps: 1, relaxation, ..weightless() };
+    let settings = Settings { substeps: 1, relaxation, cloth: ClothSolver::Paper, ..weightless() };
     let mut world = World::new(settings).unwrap();
     let rope = world.add(Rope::straight(Vec3::ZERO, Vec3::X, 1).velocity(Vec3::Z * -3.0).pin(0)).unwrap();
     let mut turn = (3.0 * f64::from(DT)).atan();
@@ -115,7 +115,14 @@ fn a_particle_on_a_stick_circles_as_projection_predicts() {
 /// exp(−g h t/2L).
 #[test]
 fn a_pendulum_keeps_its_period_and_loses_what_projection_takes() {
-    let mut world = World::new(sleepless(Settings::default())).unwrap();
+    for (cloth, h) in [(ClothSolver::Paper, DT / 8.0), (ClothSolver::SmallSteps, 1.0 / 1920.0)] {
+        check_pendulum(Settings { cloth, ..Settings::default() }, h);
+    }
+}
+
+/// With substeps, or small steps, of `h` (s).
+fn check_pendulum(settings: Settings, h: f32) {
+    let mut world = World::new(sleepless(settings)).unwrap();
     let amplitude = 0.2f32;
     let end = Vec3::new(amplitude.sin(), -amplitude.cos(), 0.0);
     let rope = world.add(Rope::straight(Vec3::ZERO, end, 1).pin(0)).unwrap();
@@ -135,7 +142,7 @@ fn a_pendulum_keeps_its_period_and_loses_what_projection_takes() {
     let expected = std::f64::consts::TAU / G.sqrt() * (1.0 + f64::from(amplitude).powi(2) / 16.0);
     assert!((period / expected - 1.0).abs() < 0.002, "period {period} s, expected {expected}");
     let kept = f64::from(greatest.0 / end.x);
-    let expected = (-G * f64::from(DT) / 8.0 * greatest.1 / 2.0).exp();
+    let expected = (-G * f64::from(h) * greatest.1 / 2.0).exp();
     assert!((kept / expected - 1.0).abs() < 0.01, "kept {kept} of its swing, expected {expected}");
 }
 

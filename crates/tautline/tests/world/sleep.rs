@@ -1,7 +1,9 @@
 //! Bodies at rest fall asleep, cost nothing, stay where they are, and wake when something changes.
 
+use std::sync::Arc;
+
 use tautline::body::Corner;
-use tautline::{BodyHandle, Cloth, HalfSpace, Rope, Settings, TrussBody, Vec3, World};
+use tautline::{BodyHandle, Cloth, HalfSpace, RigidBody, Rope, Settings, Shape, TrussBody, Vec3, World};
 
 use crate::{DT, cube, run};
 
@@ -126,7 +128,8 @@ fn a_sleeper_falls_with_the_cloth_that_carries_it() {
     let corners = [Corner::First, Corner::RowEnd, Corner::ColumnEnd, Corner::Last];
     let cloth = corners.into_iter().fold(Cloth::grid(10, 10, 2.0, 2.0), Cloth::pin_corner);
     let cloth = world.add(cloth).unwrap();
-    let body = world.add(TrussBody::new(&cube(0.4)).position(Vec3::Y * 0.3)).unwrap();
+    let shape = Arc::new(Shape::cuboid(Vec3::splat(0.2)).unwrap());
+    let body = world.add(RigidBody::new(&shape).mass(1.0).position(Vec3::Y * 0.3)).unwrap();
     for _ in 0..1800 {
         if world.step(DT).unwrap().awake_bodies == 0 {
             break;

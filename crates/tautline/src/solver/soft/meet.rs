@@ -284,35 +284,36 @@ impl Meetings {
         }
     }
 
-    /// Moves all pairs apart that are too close, with friction.
-    pub(super) fn part(&self, points: &mut Points) {
+    /// Moves all pairs apart that are too close, with friction; what was too close before by `recovery` (m) at most.
+    pub(super) fn part(&self, points: &mut Points, recovery: f32) {
         for list in &self.lists {
             for &[a, b] in &list.pairs {
-                part_pair(points, a as usize, b as usize, list.distance, list.friction);
+                part_pair(points, [a as usize, b as usize], (list.distance, recovery), list.friction);
             }
         }
     }
 }
 
 #[inline(always)]
-fn part_pair(points: &mut Points, a: usize, b: usize, distance: f32, friction: f32) {
+fn part_pair(points: &mut Points, [a, b]: [usize; 2], (distance, recovery): (f32, f32), friction: f32) {
     let between = points.at(b) - points.at(a);
     let squared = between.length_squared();
     let masses = [points.inverse_mass[a], points.inverse_mass[b]];
     let free = masses[0] + masses[1];
-    if squared >= distance * distance || squared < 1e-16 || free == 0.0 {
+    if squared >= distance * distance || free == 0.0 {
         return;
     }
     let length = squared.sqrt();
     let slip = points.motion(b) - points.motion(a);
-    let normal = between / length;
+    // What is in one place parts along some direction, the same for all.
+    let normal = if length > 1e-8 { between / length } else { Vec3::Y };
     let along = slip.dot(normal);
     let across = slip - normal * along;
     let depth = distance - length;
     let braked = depth.min((-along).max(0.0));
     // What is deeper than it moved in is moved out without velocity.
     let apart = (normal * braked - across * friction) / free;
-    let out = normal * ((depth - braked) / free);
+    let out = normal * ((depth - braked).min(recovery) / free);
     points.shift(a, -(apart * masses[0]));
     points.shift(b, apart * masses[1]);
     points.carry(a, -(out * masses[0]));

@@ -8,6 +8,7 @@
 mod batch;
 mod bend;
 mod grid;
+mod hinge;
 mod hot;
 mod meet;
 mod patch;
@@ -44,7 +45,7 @@ use solid::Solid;
 use strand::{Segment, Strands};
 use touch::Touch;
 
-pub(crate) use rest::wake_soft;
+pub(crate) use rest::sleepers_near_movers;
 
 /// Small steps in a second: so many, and so many more for every particle along the longer side of a cloth, within bounds.
 const LEAST_RATE: f32 = 1440.0;
@@ -79,6 +80,12 @@ pub(crate) struct SoftSolver {
 impl SoftSolver {
     /// Has everything laid out anew before the next step.
     pub(crate) fn invalidate(&mut self) {
+        self.is_stale = true;
+    }
+
+    /// Forgets everything.
+    pub(crate) fn clear(&mut self) {
+        self.pieces.clear();
         self.is_stale = true;
     }
 

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::batch::Batches;
 use super::grid::Grid;
+use super::hinge::Hinges;
 use super::meet::{Exempt, lay_flat};
 use super::points::{Coordinates, Points};
 use super::rest::Rest;
@@ -33,6 +34,7 @@ pub(super) struct Piece {
     pub(super) mean_inverse_mass: f32,
     pub(super) rest: Rest,
     pub(super) tethers: Tethers,
+    pub(super) hinges: Hinges,
     /// How far particles are kept from solids, in m.
     pub(super) thickness: f32,
     /// How far a particle may go in a small step, in m.
@@ -98,10 +100,13 @@ impl Piece {
             mean_inverse_mass,
             rest: Rest::default(),
             tethers: Tethers::default(),
+            hinges: Hinges::default(),
             thickness: deformable.thickness,
             longest_motion: f32::MAX,
             fastest: 0.0,
         };
+        let Deformable { angles, bendings, .. } = deformable;
+        piece.hinges = Hinges::new(angles, bendings, |particle| piece.place(particle));
         piece.tie(body, deformable, particles);
         piece
     }

@@ -94,31 +94,39 @@ impl SoftSolver {
 /// How many times faster than what sleeps is what wakes it.
 const WAKING_SPEED: f32 = 2.0;
 
-/// Wakes sleeping cloth and rope whose box is near one of something that moves.
-pub(crate) fn wake_soft(bodies: &mut [Body], particles: &Particles, sleep: Option<Sleep>) {
-    let is_sleeper = |body: &Body| body.is_soft() && body.rest.asleep;
-    let Some(sleep) = sleep.filter(|_| bodies.iter().any(is_sleeper)) else { return };
-    let mut movers: Vec<Bounds> = bodies
+/// Sleeping cloth and rope whose boxes are near one of something that moves, and sleeping rigid bodies near cloth and rope
+/// that moves; and, since those may carry others, what sleeps near them.
+pub(crate) fn sleepers_near_movers(
+    bodies: &[Body],
+    particles: &Particles,
+    sleep: Option<Sleep>,
+) -> Vec<usize> {
+    let is_sleeper = |body: &Body| !body.fixed && body.rest.asleep && (body.is_soft() || body.is_rigid());
+    let has_soft = bodies.iter().any(Body::is_soft);
+    let Some(sleep) = sleep.filter(|_| has_soft && bodies.iter().any(is_sleeper)) else { return Vec::new() };
+    let near = |body: &Body| (body.is_soft(), reach_of(body, particles));
+    let mut movers: Vec<(bool, Bounds)> = bodies
         .iter()
-        .filter(|body| moves(body, particles, WAKING_SPEED * sleep.speed))
-        .map(|body| reach_of(body, particles))
+        .filter(|body| {
+            (body.is_soft() || body.is_rigid()) && moves(body, particles, WAKING_SPEED * sleep.speed)
+        })
+        .map(near)
         .collect();
-    let mut sleepers: Vec<(usize, Bounds)> = bodies
-        .iter()
-        .enumerate()
-        .filter(|(_, body)| is_sleeper(body))
-        .map(|(index, body)| (index, reach_of(body, particles)))
-        .collect();
-    // What wakes may carry what sleeps on it.
-    while let Some(mover) = movers.pop() {
-        let (woken, still): (Vec<_>, Vec<_>) =
-            sleepers.into_iter().partition(|(_, bounds)| bounds.meets(&mover));
-        for (index, bounds) in woken {
-            bodies[index].wake();
-            movers.push(bounds);
-        }
-        sleepers = still;
+    let mut sleepers: Vec<usize> = (0..bodies.len()).filter(|&index| is_sleeper(&bodies[index])).collect();
+    let mut woken = Vec::new();
+    while let Some((is_soft, mover)) = movers.pop() {
+        sleepers.retain(|&index| {
+            // Rigid bodies wake each other by their contacts.
+            let body = &bodies[index];
+            let wakes = (is_soft || body.is_soft()) && reach_of(body, particles).meets(&mover);
+            if wakes {
+                woken.push(index);
+                movers.push(near(body));
+            }
+            !wakes
+        });
     }
+    woken
 }
 
 /// Whether a body moves faster than `speed` (m/s) anywhere.

@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use super::SoftSolver;
+use super::hinge;
 use super::patch::{Cone, cone_of};
 use super::piece::{Layout, Piece};
 use super::points::SmallStep;
@@ -50,7 +51,8 @@ impl SoftSolver {
             }
             until_search -= 1;
             run(instructions, Relax(self));
-            run(instructions, Part(self));
+            self.turn_hinges(timing.small);
+            run(instructions, Part(self, timing.recovery * timing.small));
             run(instructions, PullRopes(self));
             run(instructions, PushOut { solver: self, solids, timing });
             run(instructions, SweepWindows { solver: self, solids, timing });
@@ -153,14 +155,14 @@ impl Kernel for Relax<'_> {
 }
 
 /// Keeps cloth and ropes from each other and themselves.
-struct Part<'a>(&'a mut SoftSolver);
+struct Part<'a>(&'a mut SoftSolver, f32);
 
 impl Kernel for Part<'_> {
     type Output = ();
 
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let solver = self.0;
+        let Self(solver, recovery) = self;
         let is_time = solver.done.is_multiple_of(LOOK_EVERY);
         if is_time && !solver.meetings.is_empty() {
             solver.look_at_cloth::<L>();
@@ -168,13 +170,21 @@ impl Kernel for Part<'_> {
         if is_time && !solver.strands.is_empty() {
             solver.look_at_ropes::<L>();
         }
-        solver.meetings.part(&mut solver.points);
+        solver.meetings.part(&mut solver.points, recovery);
         let SoftSolver { points, pieces, strands, .. } = solver;
-        strands.part(points, |piece| pieces[piece as usize].rest.leans = true);
+        strands.part(points, recovery, |piece| pieces[piece as usize].rest.leans = true);
     }
 }
 
 impl SoftSolver {
+    fn turn_hinges(&mut self, h: f32) {
+        if self.done.is_multiple_of(hinge::EVERY) {
+            for piece in &self.pieces {
+                piece.hinges.turn(&mut self.points, h * h * hinge::EVERY as f32);
+            }
+        }
+    }
+
     #[inline(always)]
     fn look_at_cloth<L: Lanes>(&mut self) {
         let mut number = 0;

@@ -123,10 +123,10 @@ impl Strands {
         }));
     }
 
-    /// Moves apart what is too close, with friction. Calls `leans` with the pieces of cloth that lean on held ropes.
-    pub(super) fn part(&self, points: &mut Points, mut leans: impl FnMut(u32)) {
+    /// Moves apart what is too close, with friction; what was too close before by `recovery` (m) at most. Calls `leans` with the pieces of cloth that lean on held ropes.
+    pub(super) fn part(&self, points: &mut Points, recovery: f32, mut leans: impl FnMut(u32)) {
         for near in &self.nears {
-            if near.part(points) && near.leaning != u32::MAX {
+            if near.part(points, recovery) && near.leaning != u32::MAX {
                 leans(near.leaning);
             }
         }
@@ -175,7 +175,7 @@ impl Near {
     /// Of the nearest places of both, as they are: the gap that is missing along the line between them, and friction by
     /// Coulomb's law on displacements. What has passed the other in this small step is taken back to its side. Tells whether they touched.
     #[inline(always)]
-    fn part(&self, points: &mut Points) -> bool {
+    fn part(&self, points: &mut Points, recovery: f32) -> bool {
         let [a, b] = [self.a, self.b].map(|ends| ends.map(|place| place as usize));
         let (ends_a, ends_b) = (a.map(|place| points.at(place)), b.map(|place| points.at(place)));
         let [share_a, share_b] = nearest_shares(ends_a, ends_b);
@@ -183,15 +183,18 @@ impl Near {
         let mix = |ends: [Vec3; 2], weights: [f32; 2]| ends[0] * weights[0] + ends[1] * weights[1];
         let gap = mix(ends_b, weights[1]) - mix(ends_a, weights[0]);
         let length = gap.length();
-        if length >= 3.0 * self.distance || length < 1e-9 {
+        if length >= 3.0 * self.distance {
             return false;
         }
         let slip = mix(b.map(|place| points.motion(place)), weights[1])
             - mix(a.map(|place| points.motion(place)), weights[0]);
         let before = gap - slip;
         let has_passed = gap.dot(before) < 0.0;
-        let (normal, apart) =
-            if has_passed { (before.normalize_or(Vec3::Y), -length) } else { (gap / length, length) };
+        let (normal, apart) = if has_passed {
+            (before.normalize_or(Vec3::Y), -length)
+        } else {
+            (gap.normalize_or(Vec3::Y), length)
+        };
         let depth = self.distance - apart;
         let is_point = a[0] == a[1];
         let mass = |place: usize| points.inverse_mass[place];
@@ -211,7 +214,7 @@ impl Near {
         // What is deeper than it moved in is moved out without velocity.
         let braked = depth.min((-slip.dot(normal)).max(0.0));
         let impulse = (normal * braked - across * grip) / mobility;
-        let out = normal * ((depth - braked) / mobility);
+        let out = normal * ((depth - braked).min(recovery) / mobility);
         for (place, weight) in b.into_iter().zip(weights[1]) {
             let share = weight * points.inverse_mass[place];
             points.shift(place, impulse * share);
