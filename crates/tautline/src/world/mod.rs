@@ -14,6 +14,7 @@ use glam::Vec3;
 use crate::body::{Body, Motion};
 use crate::collision::{Candidate, Contact, NarrowPhase, PairCache};
 use crate::error::Error;
+use crate::events::Contacts;
 use crate::joint::Joints;
 use crate::particles::Particles;
 use crate::query::Index;
@@ -54,6 +55,7 @@ pub struct World {
     pub(crate) pairs: PairCache,
     pub(crate) joints: Joints,
     pub(crate) rigid: RigidSolver,
+    pub(crate) contacts: Contacts,
     pub(crate) grabs: Grabs,
     /// What queries search, made when one is asked and forgotten when something moves.
     pub(crate) index: OnceLock<Index>,
@@ -91,6 +93,7 @@ impl World {
             pairs: PairCache::default(),
             joints: Joints::default(),
             rigid: RigidSolver::default(),
+            contacts: Contacts::default(),
             grabs: Grabs::default(),
             index: OnceLock::new(),
             time: 0.0,

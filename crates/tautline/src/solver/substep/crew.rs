@@ -54,6 +54,9 @@ pub(super) struct Track {
     pub(super) moved: u32,
     /// Whether one may leave its box in this step.
     pub(super) leaves: bool,
+    /// Bits of the lanes in haste: see `RigidSolver::note_haste`.
+    #[serde(skip)]
+    pub(super) hasty: u32,
 }
 
 /// Everything by place.
@@ -266,6 +269,7 @@ fn new_block(places: &[u32], bodies: &[Body]) -> Block {
         let inertia = rigid.inertia_per_mass();
         set_lane(&mut constants.inertia, lane, inertia);
         constants.reach.0[lane] = rigid.shape.reach();
+        constants.inner_radius.0[lane] = rigid.shape.inner_radius();
         if rigid.traits.motion == MotionKind::Dynamic && body.is_awake() {
             let moments = inertia * rigid.mass;
             let root = Vec3::new(moments.x.sqrt(), moments.y.sqrt(), moments.z.sqrt());

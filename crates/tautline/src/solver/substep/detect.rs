@@ -15,6 +15,7 @@ use crate::body::{Body, HalfSpace, Substance};
 use crate::geometry::manifold::{
     Manifold, Memory, Placement, Scratch, collide, collide_plane, collide_triangle,
 };
+use crate::geometry::query::Rounded;
 use crate::shape::{Convex, Shape, Surface};
 use crate::simd::{Kernel, Lanes, Row};
 
@@ -24,6 +25,8 @@ pub(super) struct Scene<'a> {
     pub(super) bodies: &'a [Body],
     pub(super) versions: &'a [u32],
     pub(super) place_of: &'a [u32],
+    /// Of places that are solved for, whether joints hold their body.
+    pub(super) is_held: &'a [bool],
     /// One for each place.
     pub(super) shapes: &'a [Option<Arc<Shape>>],
     /// Two for each place, see `prepare`.
@@ -33,6 +36,8 @@ pub(super) struct Scene<'a> {
     pub(super) substeps: f32,
     /// How far apart contacts are kept at least, in m.
     pub(super) margin: f32,
+    /// How far gravity lets what is free fall in the step, in m.
+    pub(super) fall: Vec3,
 }
 
 /// Points further apart than this no longer hold on to each other, in m.
@@ -50,7 +55,7 @@ pub(super) struct Placed {
     pub(super) center: Vec3,
     pub(super) axes: Mat3,
     /// Motion in a whole step, in m.
-    motion: Vec3,
+    pub(super) motion: Vec3,
     /// How far its rotation moves its points in a whole step, in m.
     turning: f32,
     reach: f32,
@@ -65,7 +70,7 @@ impl Placed {
 impl<'a> Scene<'a> {
     /// The shape of a body, if it is a rigid one.
     #[inline(always)]
-    fn shape(&self, body: u32) -> Option<&'a Shape> {
+    pub(super) fn shape(&self, body: u32) -> Option<&'a Shape> {
         self.shapes.get(self.place_of[body as usize] as usize)?.as_deref()
     }
 
@@ -148,11 +153,11 @@ fn update<L: Lanes>(scene: Scene<'_>, pair: &mut Pair, detail: &mut Detail, scra
             let Some(part_a) = part(scene, pair.a, detail.part_a) else { return };
             let manifold = match shape.surface() {
                 Some(surface) => {
-                    collide_with_triangle::<L>(scene, (part_a, surface), (&a, &b), detail, scratch)
+                    collide_with_triangle::<L>(scene, (part_a, surface), (&a, &b), (pair, detail), scratch)
                 }
                 None => {
                     let Some(part_b) = part(scene, pair.b, detail.part_b) else { return };
-                    collide_parts::<L>(scene, (part_a, part_b), (&a, &b), detail, scratch)
+                    collide_parts::<L>(scene, (part_a, part_b), (&a, &b), (pair, detail), scratch)
                 }
             };
             (manifold, b)
@@ -212,14 +217,27 @@ fn collide_with_triangle<L: Lanes>(
     scene: Scene<'_>,
     (part, surface): (&Convex, &Surface),
     (a, b): (&Placed, &Placed),
-    detail: &mut Detail,
+    (pair, detail): (&Pair, &mut Detail),
     scratch: &mut Scratch,
 ) -> Manifold {
-    let (b_in_a, approach, base) = relative(scene, a, b);
+    let (mut b_in_a, approach, base) = relative(scene, a, b);
     let triangle = surface.triangle(detail.part_b);
     let closing = -(b_in_a.rotation * triangle.normal).dot(approach);
     let margin = base + LOOK_AHEAD * (closing.max(0.0) + SIDEWAYS * approach.length());
-    collide_triangle::<L>(part, &triangle, &b_in_a, (&mut detail.memory, scratch), margin)
+    let mut is_foreseen = false;
+    loop {
+        let memory = &mut detail.memory;
+        let manifold = collide_triangle::<L>(part, &triangle, &b_in_a, (memory, scratch), margin);
+        if is_foreseen || !scene.is_far_off(&manifold, approach, pair) {
+            return manifold;
+        }
+        let shapes = [Rounded::of(part), Rounded { corners: &triangle.corners, radius: 0.0 }];
+        match scene.at_first_touch([pair.a, pair.b], [a, b], shapes) {
+            Some(there) => b_in_a = there,
+            None => return Manifold::default(),
+        }
+        is_foreseen = true;
+    }
 }
 
 #[inline(always)]
@@ -227,10 +245,10 @@ fn collide_parts<L: Lanes>(
     scene: Scene<'_>,
     (part_a, part_b): (&Convex, &Convex),
     (a, b): (&Placed, &Placed),
-    detail: &mut Detail,
+    (pair, detail): (&Pair, &mut Detail),
     scratch: &mut Scratch,
 ) -> Manifold {
-    let (b_in_a, approach, base) = relative(scene, a, b);
+    let (mut b_in_a, approach, base) = relative(scene, a, b);
     let axis = detail.memory.axis;
     let closing = if axis == Vec3::ZERO {
         approach.length()
@@ -238,7 +256,20 @@ fn collide_parts<L: Lanes>(
         axis.dot(approach).max(0.0) + SIDEWAYS * approach.length()
     };
     let margin = base + LOOK_AHEAD * closing;
-    collide::<L>(part_a, part_b, &b_in_a, (&mut detail.memory, scratch), margin)
+    let mut is_foreseen = false;
+    loop {
+        let memory = &mut detail.memory;
+        let manifold = collide::<L>(part_a, part_b, &b_in_a, (memory, scratch), margin);
+        if is_foreseen || !scene.is_far_off(&manifold, approach, pair) {
+            return manifold;
+        }
+        let shapes = [Rounded::of(part_a), Rounded::of(part_b)];
+        match scene.at_first_touch([pair.a, pair.b], [a, b], shapes) {
+            Some(there) => b_in_a = there,
+            None => return Manifold::default(),
+        }
+        is_foreseen = true;
+    }
 }
 
 /// Keeps a contact, which goes on as the pair's last one did.

@@ -45,6 +45,8 @@ impl RigidSolver {
         settings: &Settings,
         h: f32,
     ) -> Vec<Lost> {
+        self.sweep(settings.instructions);
+        self.listener.finish(&self.groups, &self.pairs);
         self.keep_multipliers();
         let worthwhile = parallel::is_worthwhile(bodies.len(), WORTHWHILE);
         let mut written = vec![[[Row::ZERO; 12]; 2]; self.lineup.solved / LANES];

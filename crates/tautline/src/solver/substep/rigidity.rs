@@ -15,6 +15,9 @@ use super::block::Block;
 const ITERATIONS: usize = 3;
 /// Half the angle, in rad, up to which a substep's rotation is solved for; beyond, a body keeps its ω.
 pub(super) const FASTEST: f32 = 0.5;
+/// From this ratio of its moments of inertia on a body is too fast sooner: a rotation that is off by ε turns ε of the
+/// angular momentum onto the axis of the least moment, and adds ε² times the ratio to the energy.
+const SLENDER: f32 = 16.0;
 
 /// Moves eight bodies by a substep of `h` (s) and returns their rows after it, damped by their own rates and that of
 /// the world (1/s).
@@ -71,6 +74,16 @@ fn real_part<L: Lanes>(u: Vec3x8<L>) -> L {
     (L::splat(1.0) - u.length_squared()).max(L::splat(0.1)).sqrt()
 }
 
+/// Whether the iteration leaves more than it may, about |half|⁴.
+#[inline(always)]
+fn is_too_fast<L: Lanes>(half: Vec3x8<L>, inertia: Vec3x8<L>) -> L {
+    let largest = inertia.x.max(inertia.y).max(inertia.z);
+    let least = inertia.x.min(inertia.y).min(inertia.z);
+    let squared = half.length_squared() * L::splat(1.0 / (FASTEST * FASTEST));
+    let fourth = squared * squared;
+    (fourth * fourth * largest.max(least * L::splat(SLENDER))).greater(least * L::splat(SLENDER))
+}
+
 /// A rotation Q in a body's frame, as a unit quaternion.
 struct Turn<L> {
     imaginary: Vec3x8<L>,
@@ -86,7 +99,7 @@ impl<L: Lanes> Turn<L> {
         let one = L::splat(1.0);
         let inverse = Vec3x8::new(one / inertia.x, one / inertia.y, one / inertia.z);
         let half = angular * L::splat(0.5);
-        let is_too_fast = half.length_squared().greater(L::splat(FASTEST * FASTEST));
+        let is_too_fast = is_too_fast(half, inertia);
         let mut u = half;
         for _ in 0..ITERATIONS {
             let coupling = u.cross(u.scale(inertia)).scale(inverse);

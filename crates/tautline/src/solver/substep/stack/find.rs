@@ -9,7 +9,7 @@ use glam::Vec3;
 
 use super::super::crew::{Crew, Timing};
 use super::super::held::Held;
-use super::super::joint::{JointSolver, Sets};
+use super::super::joint::Sets;
 use super::super::lineup::Lineup;
 use super::super::pairs::Pairs;
 
@@ -48,16 +48,15 @@ struct Island {
     touches: Vec<Touch>,
 }
 
-/// Finds all stacks. Without gravity there are none: nothing leans.
+/// Finds all stacks, given which places joints hold. Without gravity there are none: nothing leans.
 pub(in super::super) fn find(
     pairs: &Pairs,
     (lineup, crew, timing): (&Lineup, &Crew, &Timing),
-    joints: &JointSolver,
+    is_held: &[bool],
 ) -> Vec<Found> {
     if timing.gravity == Vec3::ZERO {
         return Vec::new();
     }
-    let is_held = joints.held(lineup.solved);
     let quiet = QUIET * timing.h * timing.substeps;
     let mut left = MOST_IN_ALL;
     let mut is_stack = |island: &Island| {
