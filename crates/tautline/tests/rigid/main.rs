@@ -14,6 +14,7 @@ mod refusals;
 mod sleep;
 mod stacks;
 mod surfaces;
+mod thrown;
 mod tunnel;
 
 use std::sync::Arc;

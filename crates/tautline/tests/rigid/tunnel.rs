@@ -2,16 +2,20 @@
 
 use std::sync::Arc;
 
+use glam::DQuat;
+use glam::DQuat;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use tautline::mesh::TriMesh;
-use tautline::{BodyHandle, Quat, RigidBody, Shape, Vec3, World};
+use tautline::{BodyHandle, DVec3, Quat, RigidBody, Settings, Shape, Vec3, World};
 
 use super::{DT, add, awake, center, weightless};
 
 /// Half of the width and the height of a wall, in m.
 const HALF: f32 = 1.5;
+/// At so many places a way is looked at.
+const WAY_POINTS: u32 = 64;
 
 #[derive(Debug, Clone, Copy)]
 enum Wall {
@@ -113,26 +117,47 @@ fn place_in(world: &World, body: BodyHandle, frame: BodyHandle) -> Vec3 {
     rotation.inverse() * (world.body(body).unwrap().center_of_mass() - position)
 }
 
-/// Steps, and says whether the centre of the bullet goes through the middle of the wall.
-fn passes(world: &mut World, bullet: BodyHandle, wall: BodyHandle, kind: Wall) -> bool {
-    // Through, in the wall's frame, to its back.
-    let through = |p: Vec3| if let Wall::HeightField(_) = kind { Vec3::new(-p.y, p.x, p.z) } else { p };
-    let speed = world.body(bullet).unwrap().velocity().x;
-    let mut before = through(place_in(world, bullet, wall));
-    for _ in 0..20 {
-        let report = world.step(DT).unwrap();
-        assert!(report.faults.is_empty(), "{:?}", report.faults);
-        let now = through(place_in(world, bullet, wall));
-        let crossing = before + (now - before) * (before.x / (before.x - now.x));
-        let is_within = |p: Vec3| p.y.abs().max(p.z.abs()) < HALF - 0.35;
-        // What is struck away along the wall may come round its edge within a step, and the wall itself turns.
-        let goes_on = world.body(bullet).unwrap().velocity().x > 0.6 * speed;
-        if before.x < 0.0 && now.x >= 0.0 && is_within(crossing) && (goes_on || is_within(now)) {
-            return true;
-        }
-        before = now;
+/// Where a bullet's centre and a wall are, in f64.
+#[derive(Debug, Clone, Copy)]
+struct Scene {
+    bullet: DVec3,
+    wall: DVec3,
+    rotation: DQuat,
+}
+
+impl Scene {
+    fn of(world: &World, bullet: BodyHandle, wall: BodyHandle) -> Self {
+        let (position, rotation) = world.body(wall).unwrap().pose().unwrap();
+        let bullet = world.body(bullet).unwrap().center_of_mass().as_dvec3();
+        Self { bullet, wall: position.as_dvec3(), rotation: rotation.as_dquat().normalize() }
     }
-    false
+
+    /// On a straight way with a steady rotation to another.
+    fn toward(&self, end: &Self, time: f64) -> Self {
+        Self {
+            bullet: self.bullet.lerp(end.bullet, time),
+            wall: self.wall.lerp(end.wall, time),
+            rotation: self.rotation.slerp(end.rotation, time),
+        }
+    }
+
+    /// The bullet's centre in a frame in which the wall's front is at x < 0.
+    fn seen_from(&self, kind: Wall) -> DVec3 {
+        let p = self.rotation.inverse() * (self.bullet - self.wall);
+        if let Wall::HeightField(_) = kind { DVec3::new(-p.y, p.x, p.z) } else { p }
+    }
+}
+
+/// Whether the bullet's centre goes through the middle of the wall, within its outline, on its way between two steps
+/// of one substep, in which bodies move straight and turn steadily.
+fn goes_through(before: &Scene, now: &Scene, kind: Wall) -> bool {
+    let way = (0..=WAY_POINTS).map(|i| before.toward(now, f64::from(i) / f64::from(WAY_POINTS)));
+    let way: Vec<DVec3> = way.map(|scene| scene.seen_from(kind)).collect();
+    way.windows(2).any(|ends| {
+        let [from, to] = [ends[0], ends[1]];
+        let crossing = from.lerp(to, from.x / (from.x - to.x));
+        from.x < 0.0 && to.x >= 0.0 && crossing.y.abs().max(crossing.z.abs()) < f64::from(HALF) - 1e-3
+    })
 }
 
 /// A bullet in front of a wall.
@@ -166,8 +191,8 @@ fn shots() -> impl Strategy<Value = Shot> {
 
 impl Shot {
     /// The world, the bullet and the wall.
-    fn world(&self) -> (World, BodyHandle, BodyHandle) {
-        let mut world = World::new(weightless()).unwrap();
+    fn world(&self, settings: Settings) -> (World, BodyHandle, BodyHandle) {
+        let mut world = World::new(settings).unwrap();
         let wall = add(&mut world, wall(self.wall));
         let way = (Vec3::X + self.slant.with_x(0.0)).normalize() * self.speed;
         let start = self.aim.with_x(0.0) - way * (0.4 / way.x + self.phase * DT);
@@ -178,13 +203,40 @@ impl Shot {
     }
 }
 
+/// Whether a shot gets through, in steps of one substep: as many as in whole steps, and each can be looked at.
+fn passes(shot: &Shot) -> bool {
+    let (mut world, bullet, wall) = shot.world(Settings { substeps: 1, ..weightless() });
+    let mut before = Scene::of(&world, bullet, wall);
+    for _ in 0..160 {
+        let report = world.step(DT / 8.0).unwrap();
+        assert!(report.faults.is_empty(), "{:?}", report.faults);
+        let now = Scene::of(&world, bullet, wall);
+        if goes_through(&before, &now, shot.wall) {
+            return true;
+        }
+        before = now;
+    }
+    false
+}
+
+/// Whether one step of the usual substeps takes a shot from before the wall to behind its middle.
+fn leaps(shot: &Shot) -> bool {
+    let (mut world, bullet, wall) = shot.world(weightless());
+    let mut before = -1.0;
+    (0..20).any(|_| {
+        assert!(world.step(DT).unwrap().faults.is_empty());
+        let now = Scene::of(&world, bullet, wall).seen_from(shot.wall);
+        let is_within = now.y.abs().max(now.z.abs()) < f64::from(HALF) - 1e-3;
+        std::mem::replace(&mut before, now.x) < 0.0 && now.x >= 0.0 && is_within
+    })
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1500))]
+    #![proptest_config(ProptestConfig::with_cases(1000))]
 
     #[test]
     fn nothing_goes_through_a_wall(shot in shots()) {
-        let (mut world, bullet, wall) = shot.world();
-        prop_assert!(!passes(&mut world, bullet, wall, shot.wall));
+        prop_assert!(!passes(&shot) && !leaps(&shot));
     }
 }
 
@@ -303,18 +355,26 @@ fn a_fast_ball_comes_back_as_fast_as_its_restitution_says() {
 }
 
 #[test]
-fn what_spins_when_it_strikes_gains_little_energy() {
+fn what_spins_when_it_strikes_gains_no_energy_to_speak_of() {
     let mut runner = TestRunner::deterministic();
-    for _ in 0..300 {
-        let shot = shots().new_tree(&mut runner).unwrap().current();
-        let (mut world, ..) = shot.world();
+    // Rods four hundred times as long as thick too.
+    let extreme = Shot {
+        bullet: Bullet::Rod(0.0005, 0.2058),
+        wall: Wall::Board(0.00437, None),
+        speed: 900.8,
+        turn: Vec3::new(-0.1717, -0.82895, -2.93986),
+        spin: Vec3::new(108.13, 193.05, -299.88),
+        aim: Vec3::new(0.2588, 0.14615, 0.86956),
+        slant: Vec3::new(0.4848, 3.882, 2.2851),
+        phase: 0.24668,
+    };
+    let shots = (0..600).map(|_| shots().new_tree(&mut runner).unwrap().current());
+    for shot in shots.chain([extreme]) {
+        let (mut world, ..) = shot.world(weightless());
         let before = world.kinetic_energy();
         for _ in 0..20 {
             world.step(DT).unwrap();
         }
-        assert!(
-            world.kinetic_energy() < 1.5 * before || matches!(shot.bullet, Bullet::Rod(r, _) if r < 2e-3),
-            "{shot:?}"
-        );
+        assert!(world.kinetic_energy() < 1.05 * before, "{shot:?}");
     }
 }

@@ -25,8 +25,8 @@ pub(super) struct Scene<'a> {
     pub(super) bodies: &'a [Body],
     pub(super) versions: &'a [u32],
     pub(super) place_of: &'a [u32],
-    /// Of places that are solved for, whether joints hold their body.
-    pub(super) is_held: &'a [bool],
+    /// Of places that are solved for, which of what joints hold their body is in.
+    pub(super) assembly_of: &'a [u32],
     /// One for each place.
     pub(super) shapes: &'a [Option<Arc<Shape>>],
     /// Two for each place, see `prepare`.
@@ -34,6 +34,8 @@ pub(super) struct Scene<'a> {
     /// One for each place: motion in a substep.
     pub(super) velocities: &'a [Row],
     pub(super) substeps: f32,
+    /// Whether any bodies may approach each other in the step by more than some inner radius.
+    pub(super) has_fast: bool,
     /// How far apart contacts are kept at least, in m.
     pub(super) margin: f32,
     /// How far gravity lets what is free fall in the step, in m.

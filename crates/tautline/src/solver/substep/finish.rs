@@ -45,6 +45,9 @@ impl RigidSolver {
         settings: &Settings,
         h: f32,
     ) -> Vec<Lost> {
+        if self.is_hasty {
+            self.crew.calm(&self.lineup, settings.instructions);
+        }
         self.sweep(settings.instructions);
         self.listener.finish(&self.groups, &self.pairs);
         self.keep_multipliers();

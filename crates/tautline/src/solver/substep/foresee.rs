@@ -7,6 +7,7 @@
 use glam::{DMat3, DQuat, DVec3, Mat3, Vec3};
 
 use super::detect::{Placed, Scene};
+use super::lineup::NOBODY;
 use super::pairs::Pair;
 use crate::geometry::manifold::{Manifold, Placement};
 use crate::geometry::query::{Motion, Rounded, first_touch};
@@ -18,7 +19,7 @@ impl Scene<'_> {
     /// Whether a contact is between bodies that have far to go before they touch, for their size.
     #[inline(always)]
     pub(super) fn is_far_off(&self, manifold: &Manifold, approach: Vec3, pair: &Pair) -> bool {
-        let mut is_apart = manifold.count > 0;
+        let mut is_apart = self.has_fast && manifold.count > 0;
         for point in &manifold.points[..manifold.count] {
             is_apart &= point.separation > APART;
         }
@@ -28,7 +29,9 @@ impl Scene<'_> {
     /// Whether two bodies approach each other by more than the inner radius of either; what has no inside has none.
     #[inline(never)]
     fn is_fast(&self, approach: Vec3, pair: &Pair) -> bool {
-        let is_held = |body: u32| self.is_held.get(self.place_of[body as usize] as usize) == Some(&true);
+        let place = |body: u32| self.place_of[body as usize] as usize;
+        let is_held =
+            |body: u32| self.assembly_of.get(place(body)).is_some_and(|&assembly| assembly != NOBODY);
         if is_held(pair.a) || is_held(pair.b) {
             // It goes where what holds it lets it.
             return false;

@@ -106,10 +106,6 @@ impl Groups {
         groups
     }
 
-    pub(super) fn iter(&self) -> std::slice::Iter<'_, Group> {
-        self.groups.iter()
-    }
-
     pub(super) fn iter_mut(&mut self) -> impl Iterator<Item = &mut Group> {
         self.groups.iter_mut()
     }

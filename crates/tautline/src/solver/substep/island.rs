@@ -85,7 +85,7 @@ impl RigidSolver {
     /// The sleepers that something moves against or pulls at.
     fn touched(&self, bodies: &[Body], joints: &Joints, sleep: Sleep, timing: &Timing) -> Vec<u32> {
         let slow = sleep.speed * timing.h * timing.substeps;
-        let scene = scene((&self.lineup, &self.crew, &self.versions, &self.is_held), bodies, timing);
+        let scene = scene((&self.lineup, &self.crew, &self.versions, &self.assembly_of), bodies, timing);
         let mut woken = Vec::new();
         for (pair, detail) in
             self.pairs.pairs.iter().zip(&self.pairs.details).filter(|(pair, _)| pair.points > 0)

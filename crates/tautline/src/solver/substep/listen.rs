@@ -6,11 +6,12 @@
 use glam::{Mat3, Vec3};
 
 use super::RigidSolver;
-use super::batch::{Batch, HeaderRows, NO_PAIR, PointRows};
+use super::batch::{HeaderRows, PointRows};
+use super::block::{column, columns};
 use super::crew::Crew;
-use super::group::{Group, Groups};
+use super::group::{Groups, Lane};
 use super::lineup::Lineup;
-use super::pairs::Pairs;
+use super::pairs::{Pair, Pairs};
 use crate::body::Body;
 use crate::simd::{LANES, Row};
 
@@ -47,9 +48,7 @@ pub(super) struct Listener {
 #[derive(Debug, Clone)]
 struct Heard {
     /// Where its rows are.
-    group: u32,
-    batch: u32,
-    lane: usize,
+    at: Lane,
     pair: u32,
     /// Where the bodies' blocks are.
     places: [u32; 2],
@@ -74,18 +73,12 @@ impl Listener {
         if !self.is_needed {
             return;
         }
-        for (group, rows) in (0..).zip(groups.iter()).filter(|(_, group)| !group.active.is_empty()) {
-            for (number, batch) in (0..).zip(&rows.batches) {
-                for lane in (0..LANES).filter(|&lane| batch.pairs[lane] != NO_PAIR) {
-                    let pair = batch.pairs[lane];
-                    let both = &pairs.pairs[pair as usize];
-                    if [both.a, both.b].iter().any(|&body| bodies[body as usize].reports_contacts()) {
-                        let places = [batch.place_a[lane], batch.place_b[lane]]
-                            .map(|place| lineup.moving_place(place));
-                        let heard = Heard { group, batch: number, lane, pair, places, ..Heard::default() };
-                        self.heard.push(heard);
-                    }
-                }
+        // A half-space has no place.
+        let place = |body: u32| lineup.moving_place(lineup.place_of[body as usize].min(lineup.ground()));
+        for (pair, at) in groups.lanes() {
+            let Pair { a, b, .. } = pairs.pairs[pair as usize];
+            if [a, b].iter().any(|&body| bodies[body as usize].reports_contacts()) {
+                self.heard.push(Heard::new(at, pair, [a, b].map(place)));
             }
         }
     }
@@ -93,10 +86,9 @@ impl Listener {
     /// Before a substep of `h` (s): how fast those approach each other that have not pressed yet.
     pub(super) fn approach(&mut self, groups: &Groups, velocities: &[Row], h: f32) {
         for heard in self.heard.iter_mut().filter(|heard| heard.impulse == 0.0) {
-            let Some((group, batch, header, points)) = heard.rows(groups) else { continue };
-            let velocity = |place: u32| &velocities[group.range.start + place as usize];
-            let (a, b) = (velocity(batch.a[heard.lane]), velocity(batch.b[heard.lane]));
-            let opening = |rows: &PointRows| opening(header, rows, heard.lane, [a, b]);
+            let (header, points) = groups.rows(&heard.at);
+            let both = groups.places(&heard.at).map(|place| &velocities[place as usize]);
+            let opening = |rows: &PointRows| opening(header, rows, heard.at.lane(), both);
             heard.approach_speed = points.iter().map(|rows| -opening(rows) / h).fold(0.0, f32::max);
         }
     }
@@ -104,11 +96,11 @@ impl Listener {
     /// After it: how hard they pressed, and where.
     pub(super) fn listen(&mut self, groups: &Groups, pairs: &Pairs, crew: &Crew, h: f32) {
         for heard in &mut self.heard {
-            let Some((.., points)) = heard.rows(groups) else { continue };
+            let (_, points) = groups.rows(&heard.at);
             let Some(held) = pairs.details[heard.pair as usize].held.as_deref() else { continue };
             let [a, b] = heard.places.map(|place| pose(crew, place));
             for (rows, point) in points.iter().zip(&held.points) {
-                let impulse = rows.normal_impulse.0[heard.lane] / h;
+                let impulse = rows.normal_impulse.0[heard.at.lane()] / h;
                 let place = ((a.0 + a.1 * point.on_a()) + (b.0 + b.1 * point.on_b())) * 0.5;
                 heard.impulse += impulse;
                 heard.moment += place * impulse;
@@ -119,8 +111,8 @@ impl Listener {
     /// Keeps what was heard in a part of the step, or all of it. What is not finite was not heard.
     pub(super) fn finish(&mut self, groups: &Groups, pairs: &Pairs) {
         let press = |heard: &Heard| {
-            let (.., points) = heard.rows(groups)?;
-            let near = |rows: &PointRows| rows.separation.0[heard.lane] <= NEAR;
+            let (_, points) = groups.rows(&heard.at);
+            let near = |rows: &PointRows| rows.separation.0[heard.at.lane()] <= NEAR;
             let pair = &pairs.pairs[heard.pair as usize];
             let normal = pairs.details[heard.pair as usize].held.as_deref()?.normal();
             let normal = if pair.a < pair.b { normal } else { -normal };
@@ -157,23 +149,9 @@ impl Listener {
     }
 }
 
-impl Default for Heard {
-    fn default() -> Self {
-        let (group, batch, lane, pair) = (0, 0, 0, NO_PAIR);
-        let (impulse, approach_speed) = (0.0, 0.0);
-        Self { group, batch, lane, pair, places: [0; 2], impulse, moment: Vec3::ZERO, approach_speed }
-    }
-}
-
 impl Heard {
-    fn rows<'a>(
-        &self,
-        groups: &'a Groups,
-    ) -> Option<(&'a Group, &'a Batch, &'a HeaderRows, &'a [PointRows])> {
-        let group = groups.iter().nth(self.group as usize)?;
-        let (batch, header) =
-            (group.batches.get(self.batch as usize)?, group.headers.get(self.batch as usize)?);
-        Some((group, batch, header, &group.points[batch.range()]))
+    fn new(at: Lane, pair: u32, places: [u32; 2]) -> Self {
+        Self { at, pair, places, impulse: 0.0, moment: Vec3::ZERO, approach_speed: 0.0 }
     }
 }
 
@@ -196,18 +174,15 @@ impl Press {
 
 /// How fast the surfaces of a point move apart along the normal, over a substep, in m.
 fn opening(header: &HeaderRows, rows: &PointRows, lane: usize, [a, b]: [&Row; 2]) -> f32 {
-    let vector = |rows: &[Row; 3]| Vec3::new(rows[0].0[lane], rows[1].0[lane], rows[2].0[lane]);
     let part = |row: &Row, at: usize| Vec3::new(row.0[at], row.0[at + 1], row.0[at + 2]);
-    let turning = vector(&rows.normal_b).dot(part(b, 4)) - vector(&rows.normal_a).dot(part(a, 4));
-    vector(&header.normal).dot(part(b, 0) - part(a, 0)) + turning
+    let turning = column(&rows.normal_b, lane).dot(part(b, 4)) - column(&rows.normal_a, lane).dot(part(a, 4));
+    column(&header.normal, lane).dot(part(b, 0) - part(a, 0)) + turning
 }
 
 /// Where a body is now: its centre and its axes.
 fn pose(crew: &Crew, place: u32) -> (Vec3, Mat3) {
     let (block, lane) = (&crew.blocks[place as usize / LANES], place as usize % LANES);
-    let column = |rows: &[Row; 3]| Vec3::new(rows[0].0[lane], rows[1].0[lane], rows[2].0[lane]);
-    let [x, y, z] = block.axes.each_ref().map(column);
-    (column(&block.center) + column(&block.shift), Mat3::from_cols(x, y, z))
+    (column(&block.center, lane) + column(&block.shift, lane), columns(&block.axes, lane))
 }
 
 impl RigidSolver {

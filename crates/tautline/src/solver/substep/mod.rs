@@ -21,6 +21,7 @@ mod island;
 mod joint;
 mod lineup;
 mod listen;
+mod meet;
 mod pairs;
 mod prepare;
 mod pull;
@@ -29,6 +30,7 @@ mod rigidity;
 mod rolling;
 mod stack;
 mod sweep;
+mod way;
 
 use serde::{Deserialize, Serialize};
 
@@ -78,8 +80,8 @@ pub(crate) struct RigidSolver {
     groups: Groups,
     stacks: Stacks,
     joints: JointSolver,
-    /// Whether joints hold the body in a place that is solved for.
-    is_held: Vec<bool>,
+    /// Of places that are solved for, the number of the assembly that joints make of their body and others.
+    assembly_of: Vec<u32>,
     /// Whether contacts are found anew in every substep of this step.
     is_hasty: bool,
     listener: Listener,
@@ -149,7 +151,7 @@ impl RigidSolver {
             solver.crew = Crew::new(&lineup, bodies);
             solver.crew.tracks = tracks;
             solver.joints.assemble(joints, &lineup);
-            solver.is_held = solver.joints.held(lineup.solved);
+            solver.assembly_of = solver.joints.assembly_of(lineup.solved);
             solver.separated = joints.separated();
             solver.listener = Listener::new(bodies);
         }
@@ -173,27 +175,27 @@ impl RigidSolver {
         self.is_hasty
     }
 
-    fn is_held(&self, place: usize) -> bool {
-        self.is_held.get(place).is_some_and(|&is_held| is_held)
+    fn assembly_of(&self, place: usize) -> u32 {
+        self.assembly_of.get(place).copied().unwrap_or(NOBODY)
     }
 
     /// Finds that out, once contacts have been found for the whole step.
     ///
     /// A contact is a plane and some points, true where the step begins. What goes several times its length until the
     /// step ends, or turns by more than a radian, meets others elsewhere and with other points, and its inertia there
-    /// and then is another: impulses would give it energy. Bodies that joints hold are moved with what holds them, and are
-    /// no reason.
+    /// and then is another: impulses would give it energy. Bodies that joints hold turn with what holds them.
     pub(crate) fn note_haste(&mut self) -> bool {
-        let place =
-            |body: u32| self.lineup.place_of.get(body as usize).map_or(NOBODY, |&place| place) as usize;
-        let is_hasty = |body: u32| {
-            let place = place(body);
-            self.crew.tracks.get(place / LANES).is_some_and(|track| track.hasty >> (place % LANES) & 1 == 1)
+        let bit = |body: u32, lanes: fn(&Track) -> u32| {
+            let place = self.lineup.place_of.get(body as usize).map_or(NOBODY, |&place| place) as usize;
+            self.crew.tracks.get(place / LANES).is_some_and(|track| lanes(track) >> (place % LANES) & 1 == 1)
         };
-        self.is_hasty = self.crew.tracks.iter().any(|track| track.hasty != 0)
-            && self.pairs.pairs.iter().any(|pair| {
-                let is_held = self.is_held(place(pair.a)) || self.is_held(place(pair.b));
-                pair.points > 0 && !is_held && (is_hasty(pair.a) || is_hasty(pair.b))
+        let is_held = |body: u32| self.assembly_of(self.lineup.place_of[body as usize] as usize) != NOBODY;
+        let is_hasty = |body: u32| bit(body, |track| track.rushing) || bit(body, |track| track.turning);
+        self.is_hasty = self.crew.tracks.iter().any(|track| (track.rushing | track.turning) != 0)
+            && self.pairs.pairs.iter().filter(|pair| pair.points > 0).any(|pair| {
+                let both = [pair.a, pair.b];
+                let rushes = both.into_iter().any(|body| bit(body, |track| track.rushing));
+                rushes || !both.into_iter().any(is_held) && both.into_iter().any(is_hasty)
             });
         if self.is_hasty {
             // Theirs were found for all of the step.
@@ -216,7 +218,7 @@ impl RigidSolver {
         if is_first {
             self.line_up(bodies, particles);
             self.joints.assemble(joints, &self.lineup);
-            self.is_held = self.joints.held(self.lineup.solved);
+            self.assembly_of = self.joints.assembly_of(self.lineup.solved);
             self.separated = joints.separated();
         }
         self.joints.begin(joints);
@@ -263,7 +265,7 @@ impl RigidSolver {
     pub(crate) fn find_contacts(&mut self, bodies: &[Body], settings: &Settings, h: f32) -> usize {
         let timing = self.timing(settings, h);
         let Pairs { pairs, details } = &mut self.pairs;
-        let scene = scene((&self.lineup, &self.crew, &self.versions, &self.is_held), bodies, &timing);
+        let scene = scene((&self.lineup, &self.crew, &self.versions, &self.assembly_of), bodies, &timing);
         if parallel::is_worthwhile(pairs.len(), WORTHWHILE) {
             let mut chunks: Vec<_> = pairs.chunks_mut(CHUNK).zip(details.chunks_mut(CHUNK)).collect();
             parallel::for_each(&mut chunks, true, |(pairs, details)| {
@@ -280,7 +282,7 @@ impl RigidSolver {
     pub(crate) fn prepare(&mut self, bodies: &[Body], settings: &Settings, h: f32) {
         self.softness = Softness::new(h, settings.separation_speed.unwrap_or(f32::INFINITY));
         let timing = self.timing(settings, h);
-        let found = stack::find(&self.pairs, (&self.lineup, &self.crew, &timing), &self.is_held);
+        let found = stack::find(&self.pairs, (&self.lineup, &self.crew, &timing), &self.assembly_of);
         let is_stacked = stack::marks(&found, self.pairs.pairs.len());
         self.groups.sort_in(&self.pairs, &self.lineup, &is_stacked);
         let (poses, ground) = (&self.crew.poses, self.lineup.ground());
@@ -341,7 +343,7 @@ const CHUNK: usize = 256;
 
 /// What there is to collide, as it is when the step begins.
 fn scene<'a>(
-    (lineup, crew, versions, is_held): (&'a Lineup, &'a Crew, &'a [u32], &'a [bool]),
+    (lineup, crew, versions, assembly_of): (&'a Lineup, &'a Crew, &'a [u32], &'a [u32]),
     bodies: &'a [Body],
     timing: &Timing,
 ) -> Scene<'a> {
@@ -350,11 +352,12 @@ fn scene<'a>(
         bodies,
         versions,
         place_of: &lineup.place_of,
-        is_held,
+        assembly_of,
         shapes: &crew.shapes,
         poses: &crew.poses,
         velocities: &crew.velocities,
         substeps: timing.substeps,
+        has_fast: crew.has_fast(timing.substeps),
         margin: timing.margin,
         fall: timing.gravity * (0.5 * step * (step + timing.h)),
     }

@@ -144,7 +144,7 @@ fn track<L: Lanes>(timing: &Timing, block: &Block, motion: Motion<L>, track: &mu
     let largest = inertia.x.max(inertia.y).max(inertia.z);
     let least = inertia.x.min(inertia.y).min(inertia.z);
     let swings = (swing * swing * largest).greater(square * square * least * L::splat(SLENDER));
-    track.hasty = rush.bits() | whirls.bits() | swings.bits();
+    (track.rushing, track.turning) = (rush.bits(), whirls.bits() | swings.bits());
     let need = look_ahead + turning + L::splat(0.5 * timing.margin);
     need.store(&mut track.need);
     let moved = block.moved_squared::<L>(&track.seen.center, &track.seen.axes);

@@ -18,6 +18,8 @@ pub(super) const FASTEST: f32 = 0.5;
 /// From this ratio of its moments of inertia on a body is too fast sooner: a rotation that is off by ε turns ε of the
 /// angular momentum onto the axis of the least moment, and adds ε² times the ratio to the energy.
 const SLENDER: f32 = 16.0;
+/// From here on more energy than there was is not rounding.
+const ROUNDED: f32 = 1.0001;
 
 /// Moves eight bodies by a substep of `h` (s) and returns their rows after it, damped by their own rates and that of
 /// the world (1/s).
@@ -44,6 +46,23 @@ pub(super) fn advance<L: Lanes>(block: &mut Block, columns: &[L; LANES], h: f32,
     let linear = Vec3x8::new(x, y, z) * kept(&block.constants.damping[0], h, damping);
     let angular = (Vec3x8::new(p, q, r) + change) * kept(&block.constants.damping[1], h, damping);
     [linear.x, linear.y, linear.z, mass, angular.x, angular.y, angular.z, response]
+}
+
+/// The rows of bodies that have moved, those of which turned too fast with no more energy than was given to them.
+///
+/// What acts on a body after it has moved acts on the inertia of where the step began. A rod has turned since then, and
+/// what made it spin about its axis would have it spin across that, with the energy of that.
+#[inline(always)]
+pub(super) fn calmed<L: Lanes>(block: &Block, columns: [L; LANES]) -> [L; LANES] {
+    let angular = block.motion(&columns).angular;
+    let inertia = Vec3x8::<L>::load(&block.constants.inertia);
+    let [x, y, z, mass, p, q, r, response] = columns;
+    let given = Vec3x8::new(p, q, r).length_squared();
+    let found = angular.scale(Vec3x8::load(&block.constants.root_inertia)).length_squared();
+    let gains = found.greater(given * L::splat(ROUNDED)).and(response.greater(L::splat(0.0)));
+    let gains = gains.and(is_too_fast(angular * L::splat(0.5), inertia));
+    let kept = gains.select((given / found).sqrt(), L::splat(1.0));
+    [x, y, z, mass, p * kept, q * kept, r * kept, response]
 }
 
 /// Axes that are unit and right-angled again: what rounding adds to them in every substep would otherwise add up in
