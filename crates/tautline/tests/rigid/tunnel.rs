@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use glam::DQuat;
-use glam::DQuat;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;

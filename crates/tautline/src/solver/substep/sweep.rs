@@ -7,8 +7,9 @@
 //! both bodies stop where they first touched, with the velocities they have, and the next step finds them there.
 //! What overlaps less than that is left to the contacts, and sliding, rolling and resting bodies never notice.
 //!
-//! What joints hold together stops together. Its parts overlap others more often, so that only their inner cores count,
-//! and not against each other.
+//! What joints hold together stops together, and only where bodies are in haste: on its way through a whole step it bends,
+//! so that part of that way would pull its joints apart. Its parts overlap others more often, so that only their inner
+//! cores count, and not against each other.
 //!
 //! The time lost is part of one step, and momentum is not touched. Only what was stopped so at once, at a place where it
 //! had its contacts all the time, also loses its approach: those contacts cannot hold it, or it would hang there.
@@ -181,6 +182,9 @@ impl RigidSolver {
             let shape = |place: u32| self.crew.shapes[place as usize].as_deref();
             let shapes = [shape(places[0])?, shape(places[1])?];
             let is_held = assembly_a != NOBODY || assembly_b != NOBODY;
+            if is_held && !self.is_hasty {
+                return None;
+            }
             let cores = if is_held { HELD_CORES } else { CORES };
             Candidate::new(moving.map(|place| place as usize), cores, shapes, [detail.part_a, detail.part_b])
         };
