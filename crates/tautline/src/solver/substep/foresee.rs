@@ -19,7 +19,10 @@ impl Scene<'_> {
     /// Whether a contact is between bodies that have far to go before they touch, for their size.
     #[inline(always)]
     pub(super) fn is_far_off(&self, manifold: &Manifold, approach: Vec3, pair: &Pair) -> bool {
-        let mut is_apart = self.has_fast && manifold.count > 0;
+        if !self.has_fast {
+            return false;
+        }
+        let mut is_apart = manifold.count > 0;
         for point in &manifold.points[..manifold.count] {
             is_apart &= point.separation > APART;
         }

@@ -7,9 +7,9 @@
 //! both bodies stop where they first touched, with the velocities they have, and the next step finds them there.
 //! What overlaps less than that is left to the contacts, and sliding, rolling and resting bodies never notice.
 //!
-//! What joints hold together stops together, and only where bodies are in haste: on its way through a whole step it bends,
-//! so that part of that way would pull its joints apart. Its parts overlap others more often, so that only their inner
-//! cores count, and not against each other.
+//! What joints hold together stops together. Its parts overlap others more often, so that only their inner cores count,
+//! and not against each other. On the way through a whole step it bends, and to stop in between pulls its joints apart:
+//! then only the middle of a part counts.
 //!
 //! The time lost is part of one step, and momentum is not touched. Only what was stopped so at once, at a place where it
 //! had its contacts all the time, also loses its approach: those contacts cannot hold it, or it would hang there.
@@ -24,9 +24,10 @@ use super::pairs::{Detail, Pair};
 use super::way::Way;
 use crate::simd::{Instructions, Kernel, LANES, Lanes, Vec3x8, run};
 
-/// The sizes of cores, as shares of that of their part, and those of what joints hold.
+/// The sizes of cores, as shares of that of their part; those of what joints hold; and of that on the way of a whole step.
 const CORES: &[f32] = &[0.8, 0.4, 0.0];
 const HELD_CORES: &[f32] = &[0.4, 0.0];
+const BENDING_CORES: &[f32] = &[0.0];
 /// What moves less than this share of its inner radius in a step goes through nothing.
 const FAST: f32 = 0.5;
 /// Bodies that meet before this share of a way is over had their contact all the time.
@@ -182,10 +183,11 @@ impl RigidSolver {
             let shape = |place: u32| self.crew.shapes[place as usize].as_deref();
             let shapes = [shape(places[0])?, shape(places[1])?];
             let is_held = assembly_a != NOBODY || assembly_b != NOBODY;
-            if is_held && !self.is_hasty {
-                return None;
-            }
-            let cores = if is_held { HELD_CORES } else { CORES };
+            let cores = match (is_held, self.is_hasty) {
+                (false, _) => CORES,
+                (true, true) => HELD_CORES,
+                (true, false) => BENDING_CORES,
+            };
             Candidate::new(moving.map(|place| place as usize), cores, shapes, [detail.part_a, detail.part_b])
         };
         self.pairs.pairs.iter().zip(&self.pairs.details).filter_map(candidate).collect()
