@@ -97,6 +97,7 @@ pub mod body;
 mod collision;
 pub mod constraint;
 mod error;
+mod events;
 pub mod geometry;
 mod joint;
 mod measure;
@@ -120,6 +121,7 @@ pub use body::{
     BodyKind, Cloth, CollisionGroups, Combine, HalfSpace, Motion, RigidBody, Rope, Surface, Truss, TrussBody,
 };
 pub use error::{Error, MeshDefect};
+pub use events::{ContactEvent, ContactEventKind};
 pub use glam::{DVec3, Mat3, Quat, Vec3};
 pub use joint::{
     BallJoint, DistanceJoint, FixedJoint, HingeJoint, JointDescription, JointEvent, JointHandle, JointKind,

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::body::{Body, Substance, Truss};
 use crate::collision::PairCache;
 use crate::error::Error;
+use crate::events::Contacts;
 use crate::joint::Joints;
 use crate::particles::Particles;
 use crate::settings::Settings;
@@ -35,6 +36,7 @@ struct Stored {
     grabs: Grabs,
     joints: Joints,
     rigid: Kept,
+    contacts: Contacts,
     time: f64,
 }
 
@@ -63,6 +65,7 @@ impl World {
             grabs: self.grabs.clone(),
             joints: self.joints.clone(),
             rigid: self.rigid.kept(),
+            contacts: self.contacts.clone(),
             time: self.time,
         };
         let mut bytes = MAGIC.to_vec();
@@ -146,7 +149,11 @@ impl Stored {
         if !self.joints.is_valid(self.bodies.len()) {
             return Err(refuse("its joints disagree with its bodies"));
         }
-        let Self { settings, particles, bodies, slots, pairs, grabs, joints, rigid, time, .. } = self;
+        if !self.contacts.is_valid(self.bodies.len()) {
+            return Err(refuse("its contact events disagree with its bodies"));
+        }
+        let Self { settings, particles, bodies, slots, pairs, grabs, joints, rigid, contacts, time, .. } =
+            self;
         let rigid = RigidSolver::restore(rigid, &bodies, &joints)
             .ok_or_else(|| refuse("its contacts disagree with its bodies"))?;
         let (index, scratch) = (OnceLock::new(), Scratch::default());
@@ -160,6 +167,7 @@ impl Stored {
             joints,
             rigid,
             soft,
+            contacts,
             grabs,
             index,
             time,

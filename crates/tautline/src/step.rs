@@ -47,8 +47,13 @@ impl World {
         let lent = self.lend_weight();
         self.begin_soft(h);
         for index in 0..self.settings.substeps {
+            let is_renewed = index > 0 && self.rigid.is_hasty();
+            if is_renewed {
+                self.write_rigid(h, index > 1, &mut report);
+                self.find_rigid_contacts(h, &mut watch);
+            }
             self.pull_grabs(h, (index + 1) as f32 / self.settings.substeps as f32);
-            self.rigid.substep(&self.settings, h, index == 0);
+            self.rigid.substep(&self.settings, h, index == 0 || is_renewed);
             watch.lap(Phase::Solve);
             self.soft.substep(&self.bodies, &mut self.rigid, &self.settings, h);
             watch.lap(Phase::Soft);
@@ -86,10 +91,20 @@ impl World {
         }
     }
 
-    /// Finds where rigid bodies touch, once for all substeps.
+    /// Finds where rigid bodies touch, once for all substeps; or for one, if some are in haste.
     fn begin_rigid(&mut self, h: f32, report: &mut StepReport, watch: &mut Stopwatch<'_, '_>) {
+        self.joints.events.clear();
+        self.rigid.begin_step();
+        report.contacts += self.find_rigid_contacts(h, watch);
+        report.pairs += self.rigid.pair_count();
+        if self.rigid.note_haste() {
+            self.find_rigid_contacts(h, watch);
+        }
+    }
+
+    /// Finds where rigid bodies touch. Returns at how many points.
+    fn find_rigid_contacts(&mut self, h: f32, watch: &mut Stopwatch<'_, '_>) -> usize {
         let Self { rigid, bodies, particles, joints, settings, .. } = self;
-        joints.events.clear();
         rigid.begin((bodies, particles, joints), settings, h);
         watch.lap(Phase::FindPairs);
         let mut contacts = rigid.find_contacts(bodies, settings, h);
@@ -97,15 +112,22 @@ impl World {
             rigid.begin((bodies, particles, joints), settings, h);
             contacts = rigid.find_contacts(bodies, settings, h);
         }
-        report.contacts += contacts;
-        report.pairs += rigid.pair_count();
         watch.lap(Phase::FindContacts);
-        rigid.prepare(settings, h);
+        rigid.prepare(bodies, settings, h);
         watch.lap(Phase::Solve);
+        contacts
     }
 
-    /// Writes what the substeps made of the rigid bodies to their particles. What is lost is frozen where it was.
     fn finish_rigid(&mut self, h: f32, report: &mut StepReport) {
+        let has_parts = self.rigid.is_hasty() && self.settings.substeps > 1;
+        self.write_rigid(h, has_parts, report);
+        self.break_joints();
+        self.contacts.finish(&self.rigid.presses(), &self.bodies, &self.slots);
+    }
+
+    /// Writes what the substeps made of the rigid bodies to their particles. What is lost is frozen where it was. What
+    /// joints did is added to what they did in an earlier part of the step, if there was one.
+    fn write_rigid(&mut self, h: f32, has_parts: bool, report: &mut StepReport) {
         let Self { rigid, bodies, particles, settings, slots, .. } = self;
         for lost in rigid.finish(bodies, particles, settings, h) {
             let body = &mut bodies[lost.body];
@@ -116,7 +138,7 @@ impl World {
             report.faults.push(Fault { body: slots.handle(lost.body), particle: lost.particle });
         }
         let states = self.rigid.finish_joints(&self.settings, h);
-        self.finish_joints(states);
+        self.joints.keep(states, has_parts);
     }
 
     /// Writes what the substeps made of cloth and rope. What is not finite any more is frozen where it was.

@@ -4,8 +4,63 @@ use tautline::Vec3;
 
 use super::rigid::camera;
 use super::{NamedScene, Parameter, Parameters};
-use crate::document::{AxisAngle, Body, Bounds, Color, PartOfCompound, Rigid, Rotation, Scene, Shape};
+use crate::document::{
+    AxisAngle, Body, Bounds, Color, HalfSpace, PartOfCompound, Rigid, Rotation, Scene, Shape,
+};
 use crate::random::Random;
+
+pub(super) const BULLETS: NamedScene = NamedScene {
+    name: "bullets",
+    description: "Balls, cubes, spinning rods and plates are shot at a thin wall; none gets through.",
+    parameters: &[
+        Parameter::count("n", "how many", 40, (1, 400)),
+        Parameter::count("speed", "how fast they are, in m/s", 100, (1, 300)),
+        Parameter::SEED,
+    ],
+    document: bullets,
+};
+
+/// Of the wall, in m: so large that what bounces off it does not come round it.
+const WALL: [f32; 3] = [0.02, 60.0, 120.0];
+
+fn bullets(p: &Parameters) -> Scene {
+    let mut random = Random::new(p.seed());
+    let wall = Rigid {
+        shape: Shape::Box { size: WALL },
+        position: [0.0, WALL[1] / 2.0, 0.0],
+        fixed: true,
+        ..Rigid::default()
+    };
+    let mut bodies = vec![Body::HalfSpace(HalfSpace::default()), Body::Rigid(wall)];
+    let shapes = [
+        Shape::Sphere { radius: 0.05 },
+        Shape::Box { size: [0.1; 3] },
+        Shape::Capsule { radius: 0.02, height: 0.4, segments: None, rings: None },
+        Shape::Box { size: [0.3, 0.02, 0.2] },
+    ];
+    let columns = 10;
+    let n = p.count("n");
+    for i in 0..n {
+        // A volley of ten at a time, each a tenth of a second after the one before.
+        let (column, volley) = (i % columns, i / columns);
+        let place = Vec3::new(0.0, 1.0 + random.between(0.0, 1.6), (column as f32 - 4.5) * 0.5);
+        let speed = p.count("speed") as f32;
+        let distance = speed * (0.1 * volley as f32 + random.between(0.02, 0.05)) + 1.0;
+        bodies.push(Body::Rigid(Rigid {
+            shape: shapes[i as usize % shapes.len()].clone(),
+            position: (place - Vec3::X * distance).to_array(),
+            rotation: Rotation::Quaternion(random.rotation().to_array()),
+            velocity: [speed, 0.0, 0.0],
+            angular_velocity: random.vector(40.0).to_array(),
+            density: Some(2000.0),
+            restitution: Some(0.3),
+            ..Rigid::default()
+        }));
+    }
+    let bounds = Bounds { min: [-1e4, 0.0, -1e4], max: [0.0, 1e3, 1e4] };
+    let camera = camera(Vec3::new(-8.0, 3.5, 7.5), Vec3::new(-0.5, 1.3, 0.0));
+    Scene { seconds: 3.0, bodies, bounds: Some(bounds), camera: Some(camera), ..Scene::default() }
+}
 
 pub(super) const MIXED_PILE: NamedScene = NamedScene {
     name: "mixed-pile",

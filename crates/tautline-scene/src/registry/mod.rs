@@ -57,6 +57,7 @@ pub fn scenes() -> &'static [NamedScene] {
         balance::ARCH,
         balance::CARD_HOUSE,
         balance::DOMINOES,
+        impact::BULLETS,
         impact::MIXED_PILE,
         chain::CHAIN,
         ragdoll::RAGDOLL,

@@ -139,6 +139,11 @@ impl Body {
         }
     }
 
+    /// Whether it reports its contacts.
+    pub(crate) fn reports_contacts(&self) -> bool {
+        self.rigid().is_some_and(|rigid| rigid.traits.reports_contacts)
+    }
+
     /// Holds it where it is for good.
     pub(crate) fn freeze(&mut self) {
         self.fixed = true;

@@ -101,6 +101,7 @@ pub(crate) struct Traits {
     pub(crate) angular_damping: f32,
     pub(crate) groups: CollisionGroups,
     pub(crate) can_sleep: bool,
+    pub(crate) reports_contacts: bool,
 }
 
 impl RigidBody {
@@ -113,6 +114,7 @@ impl RigidBody {
             angular_damping: 0.0,
             groups: CollisionGroups::default(),
             can_sleep: true,
+            reports_contacts: false,
         };
         Self {
             shape: Arc::clone(shape),
@@ -220,6 +222,12 @@ impl RigidBody {
     /// It is never put to sleep.
     pub fn never_sleep(mut self) -> Self {
         self.traits.can_sleep = false;
+        self
+    }
+
+    /// It reports what it touches: [`World::contact_events`](crate::World::contact_events).
+    pub fn report_contacts(mut self) -> Self {
+        self.traits.reports_contacts = true;
         self
     }
 

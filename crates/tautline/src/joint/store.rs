@@ -1,5 +1,6 @@
 //! The joints of a world.
 
+use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::{Joint, JointDescription, Kind, Motor, State};
@@ -44,6 +45,15 @@ impl Joints {
         let mut pairs: Vec<[u32; 2]> = self.holding().filter_map(pair).collect();
         pairs.sort_unstable();
         pairs
+    }
+
+    /// Keeps what a step has made of joints; `adds`: its force to that of an earlier part of it.
+    pub(crate) fn keep(&mut self, states: impl IntoIterator<Item = (u32, State)>, adds: bool) {
+        for (index, state) in states {
+            let kept = &mut self.items[index as usize].state;
+            let before = if adds { [kept.force, kept.torque] } else { [Vec3::ZERO; 2] };
+            *kept = State { force: before[0] + state.force, torque: before[1] + state.torque, ..state };
+        }
     }
 
     fn remove(&mut self, index: usize) {
@@ -182,18 +192,19 @@ impl World {
         }
     }
 
-    /// Keeps what the step has made of the joints, and breaks those that held too much.
-    pub(crate) fn finish_joints(&mut self, states: impl IntoIterator<Item = (u32, State)>) {
-        for (index, state) in states {
-            let joint = &mut self.joints.items[index as usize];
-            joint.state = state;
+    /// Breaks joints that held too much in the step.
+    pub(crate) fn break_joints(&mut self) {
+        for (index, joint) in
+            self.joints.items.iter_mut().enumerate().filter(|(_, joint)| !joint.state.is_broken)
+        {
+            let state = &joint.state;
             let exceeds = |size: f32, most: Option<f32>| most.is_some_and(|most| size > most);
             let strength = &joint.strength;
             if exceeds(state.force.length(), strength.break_force)
                 || exceeds(state.torque.length(), strength.break_torque)
             {
                 joint.state.is_broken = true;
-                let joint = self.joints.slots.handle(index as usize);
+                let joint = self.joints.slots.handle(index);
                 self.joints.events.push(JointEvent::Broke { joint });
                 self.rigid.invalidate();
             }

@@ -106,6 +106,7 @@ impl World {
         self.wake_neighbours(index);
         let range = self.bodies[index].particles.clone();
         self.particles.remove(range.clone());
+        self.contacts.remove_body(index, &self.slots);
         self.bodies.remove(index);
         self.slots.remove(index);
         self.pairs.remove_body(index as u32);

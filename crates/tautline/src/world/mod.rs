@@ -14,6 +14,7 @@ use glam::Vec3;
 use crate::body::{Body, Motion};
 use crate::collision::{Candidate, Contact, NarrowPhase, PairCache};
 use crate::error::Error;
+use crate::events::Contacts;
 use crate::joint::Joints;
 use crate::particles::Particles;
 use crate::query::Index;
@@ -56,6 +57,7 @@ pub struct World {
     pub(crate) joints: Joints,
     pub(crate) rigid: RigidSolver,
     pub(crate) soft: SoftSolver,
+    pub(crate) contacts: Contacts,
     pub(crate) grabs: Grabs,
     /// What queries search, made when one is asked and forgotten when something moves.
     pub(crate) index: OnceLock<Index>,
@@ -94,6 +96,7 @@ impl World {
             joints: Joints::default(),
             rigid: RigidSolver::default(),
             soft: SoftSolver::default(),
+            contacts: Contacts::default(),
             grabs: Grabs::default(),
             index: OnceLock::new(),
             time: 0.0,

@@ -79,7 +79,7 @@ impl World {
     }
 
     /// Changes traits if what comes out is valid. Returns the index of the body.
-    fn change_traits(
+    pub(crate) fn change_traits(
         &mut self,
         handle: BodyHandle,
         change: impl FnOnce(&mut Traits),

@@ -2,6 +2,7 @@
 
 mod bounce;
 mod control;
+mod events;
 mod faults;
 mod forces;
 mod friction;
@@ -13,6 +14,8 @@ mod refusals;
 mod sleep;
 mod stacks;
 mod surfaces;
+mod thrown;
+mod tunnel;
 
 use std::sync::Arc;
 

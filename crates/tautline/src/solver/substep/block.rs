@@ -33,6 +33,8 @@ pub(super) struct Constants {
     pub(super) response: Row,
     /// How far the shape reaches from the centre of mass, in m.
     pub(super) reach: Row,
+    /// The radius of a ball that fits into each part of the shape, in m; 0 without an inside.
+    pub(super) inner_radius: Row,
     /// How many times gravity acts on it.
     pub(super) gravity_scale: Row,
     /// Rates at which motion and rotation die out, in 1/s.

@@ -54,6 +54,11 @@ pub(super) struct Track {
     pub(super) moved: u32,
     /// Whether one may leave its box in this step.
     pub(super) leaves: bool,
+    /// Bits of the lanes in haste, for how far they go and how far they turn: see `RigidSolver::note_haste`.
+    #[serde(skip)]
+    pub(super) rushing: u32,
+    #[serde(skip)]
+    pub(super) turning: u32,
 }
 
 /// Everything by place.
@@ -63,6 +68,8 @@ pub(super) struct Crew {
     pub(super) tracks: Vec<Track>,
     /// Where there is a body.
     pub(super) shapes: Vec<Option<Arc<Shape>>>,
+    /// Of all solid ones, in m.
+    least_inner_radius: f32,
     /// Two rows for each place, see `prepare::Poses`.
     pub(super) poses: Vec<Row>,
     /// One for each place, see `block`.
@@ -93,10 +100,13 @@ impl Crew {
         let count = lineup.places.len();
         let block = |places: &[u32]| new_block(places, bodies);
         let shape = |&place: &u32| rigid_at(place, bodies).map(|(_, rigid)| Arc::clone(&rigid.shape));
+        let shapes: Vec<_> = lineup.places.iter().map(shape).collect();
+        let solid = shapes.iter().flatten().filter(|shape| shape.is_solid());
         Self {
             blocks: lineup.places.chunks(LANES).map(block).collect(),
             tracks: vec![Track::default(); count / LANES],
-            shapes: lineup.places.iter().map(shape).collect(),
+            least_inner_radius: solid.map(|shape| shape.inner_radius()).fold(f32::INFINITY, f32::min),
+            shapes,
             poses: vec![Row::ZERO; 2 * count],
             velocities: vec![Row::ZERO; count],
             accumulated: vec![Row::ZERO; count],
@@ -180,6 +190,13 @@ impl Crew {
         self.for_each(lineup, lineup.stripes(), |squad| run(instructions, Kick { squad, is_first }));
     }
 
+    /// Whether any two bodies may approach each other in a whole step by more than the inner radius of any.
+    pub(super) fn has_fast(&self, substeps: f32) -> bool {
+        let way_squared = |row: &Row| Vec3::new(row.0[0], row.0[1], row.0[2]).length_squared();
+        let longest = self.velocities.iter().map(way_squared).fold(0.0, f32::max).sqrt() * substeps;
+        2.0 * longest > self.least_inner_radius
+    }
+
     /// How the centre of what is in a place moves in a whole step, and how far its turning moves its points, in m.
     pub(super) fn motion(&self, place: usize, substeps: f32) -> (Vec3, f32) {
         let (velocity, pose) = (&self.velocities[place].0, &self.poses[2 * place + 1].0);
@@ -198,6 +215,11 @@ impl Crew {
     /// Moves all bodies by a substep.
     pub(super) fn advance(&mut self, lineup: &Lineup, timing: &Timing) {
         self.for_each(lineup, lineup.stripes(), |squad| run(timing.instructions, Advance { squad, timing }));
+    }
+
+    /// Takes out the energy that bodies got from having moved: see `rigidity::calmed`.
+    pub(super) fn calm(&mut self, lineup: &Lineup, instructions: Instructions) {
+        self.for_each(lineup, lineup.stripes(), |squad| run(instructions, Calm { squad }));
     }
 
     /// The particles of eight bodies as they are now: positions and displacements.
@@ -266,6 +288,7 @@ fn new_block(places: &[u32], bodies: &[Body]) -> Block {
         let inertia = rigid.inertia_per_mass();
         set_lane(&mut constants.inertia, lane, inertia);
         constants.reach.0[lane] = rigid.shape.reach();
+        constants.inner_radius.0[lane] = rigid.shape.inner_radius();
         if rigid.traits.motion == MotionKind::Dynamic && body.is_awake() {
             let moments = inertia * rigid.mass;
             let root = Vec3::new(moments.x.sqrt(), moments.y.sqrt(), moments.z.sqrt());
@@ -349,6 +372,22 @@ impl Kernel for Advance<'_, '_> {
                 rigidity::advance::<L>(block, &load(velocities), self.timing.h, self.timing.damping);
             store(columns, velocities);
             before.copy_from_slice(velocities);
+        }
+    }
+}
+
+struct Calm<'a, 'b> {
+    squad: &'a mut Squad<'b>,
+}
+
+impl Kernel for Calm<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Squad { blocks, velocities, .. } = self.squad;
+        for (block, velocities) in blocks.iter().zip(velocities.chunks_exact_mut(LANES)) {
+            store(rigidity::calmed::<L>(block, load(velocities)), velocities);
         }
     }
 }

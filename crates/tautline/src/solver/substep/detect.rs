@@ -15,6 +15,7 @@ use crate::body::{Body, HalfSpace, Substance};
 use crate::geometry::manifold::{
     Manifold, Memory, Placement, Scratch, collide, collide_plane, collide_triangle,
 };
+use crate::geometry::query::Rounded;
 use crate::shape::{Convex, Shape, Surface};
 use crate::simd::{Kernel, Lanes, Row};
 
@@ -24,6 +25,8 @@ pub(super) struct Scene<'a> {
     pub(super) bodies: &'a [Body],
     pub(super) versions: &'a [u32],
     pub(super) place_of: &'a [u32],
+    /// Of places that are solved for, which of what joints hold their body is in.
+    pub(super) assembly_of: &'a [u32],
     /// One for each place.
     pub(super) shapes: &'a [Option<Arc<Shape>>],
     /// Two for each place, see `prepare`.
@@ -31,8 +34,12 @@ pub(super) struct Scene<'a> {
     /// One for each place: motion in a substep.
     pub(super) velocities: &'a [Row],
     pub(super) substeps: f32,
+    /// Whether any bodies may approach each other in the step by more than some inner radius.
+    pub(super) has_fast: bool,
     /// How far apart contacts are kept at least, in m.
     pub(super) margin: f32,
+    /// How far gravity lets what is free fall in the step, in m.
+    pub(super) fall: Vec3,
 }
 
 /// Points further apart than this no longer hold on to each other, in m.
@@ -50,7 +57,7 @@ pub(super) struct Placed {
     pub(super) center: Vec3,
     pub(super) axes: Mat3,
     /// Motion in a whole step, in m.
-    motion: Vec3,
+    pub(super) motion: Vec3,
     /// How far its rotation moves its points in a whole step, in m.
     turning: f32,
     reach: f32,
@@ -65,7 +72,7 @@ impl Placed {
 impl<'a> Scene<'a> {
     /// The shape of a body, if it is a rigid one.
     #[inline(always)]
-    fn shape(&self, body: u32) -> Option<&'a Shape> {
+    pub(super) fn shape(&self, body: u32) -> Option<&'a Shape> {
         self.shapes.get(self.place_of[body as usize] as usize)?.as_deref()
     }
 
@@ -148,11 +155,11 @@ fn update<L: Lanes>(scene: Scene<'_>, pair: &mut Pair, detail: &mut Detail, scra
             let Some(part_a) = part(scene, pair.a, detail.part_a) else { return };
             let manifold = match shape.surface() {
                 Some(surface) => {
-                    collide_with_triangle::<L>(scene, (part_a, surface), (&a, &b), detail, scratch)
+                    collide_with_triangle::<L>(scene, (part_a, surface), (&a, &b), (pair, detail), scratch)
                 }
                 None => {
                     let Some(part_b) = part(scene, pair.b, detail.part_b) else { return };
-                    collide_parts::<L>(scene, (part_a, part_b), (&a, &b), detail, scratch)
+                    collide_parts::<L>(scene, (part_a, part_b), (&a, &b), (pair, detail), scratch)
                 }
             };
             (manifold, b)
@@ -212,14 +219,23 @@ fn collide_with_triangle<L: Lanes>(
     scene: Scene<'_>,
     (part, surface): (&Convex, &Surface),
     (a, b): (&Placed, &Placed),
-    detail: &mut Detail,
+    (pair, detail): (&Pair, &mut Detail),
     scratch: &mut Scratch,
 ) -> Manifold {
     let (b_in_a, approach, base) = relative(scene, a, b);
     let triangle = surface.triangle(detail.part_b);
     let closing = -(b_in_a.rotation * triangle.normal).dot(approach);
     let margin = base + LOOK_AHEAD * (closing.max(0.0) + SIDEWAYS * approach.length());
-    collide_triangle::<L>(part, &triangle, &b_in_a, (&mut detail.memory, scratch), margin)
+    let memory = &mut detail.memory;
+    let manifold = collide_triangle::<L>(part, &triangle, &b_in_a, (memory, scratch), margin);
+    if !scene.is_far_off(&manifold, approach, pair) {
+        return manifold;
+    }
+    let shapes = [Rounded::of(part), Rounded { corners: &triangle.corners, radius: 0.0 }];
+    match scene.at_first_touch([pair.a, pair.b], [a, b], shapes) {
+        Some(there) => collide_triangle::<L>(part, &triangle, &there, (memory, scratch), margin),
+        None => Manifold::default(),
+    }
 }
 
 #[inline(always)]
@@ -227,7 +243,7 @@ fn collide_parts<L: Lanes>(
     scene: Scene<'_>,
     (part_a, part_b): (&Convex, &Convex),
     (a, b): (&Placed, &Placed),
-    detail: &mut Detail,
+    (pair, detail): (&Pair, &mut Detail),
     scratch: &mut Scratch,
 ) -> Manifold {
     let (b_in_a, approach, base) = relative(scene, a, b);
@@ -238,7 +254,16 @@ fn collide_parts<L: Lanes>(
         axis.dot(approach).max(0.0) + SIDEWAYS * approach.length()
     };
     let margin = base + LOOK_AHEAD * closing;
-    collide::<L>(part_a, part_b, &b_in_a, (&mut detail.memory, scratch), margin)
+    let memory = &mut detail.memory;
+    let manifold = collide::<L>(part_a, part_b, &b_in_a, (memory, scratch), margin);
+    if !scene.is_far_off(&manifold, approach, pair) {
+        return manifold;
+    }
+    let shapes = [Rounded::of(part_a), Rounded::of(part_b)];
+    match scene.at_first_touch([pair.a, pair.b], [a, b], shapes) {
+        Some(there) => collide::<L>(part_a, part_b, &there, (memory, scratch), margin),
+        None => Manifold::default(),
+    }
 }
 
 /// Keeps a contact, which goes on as the pair's last one did.

@@ -45,6 +45,11 @@ impl RigidSolver {
         settings: &Settings,
         h: f32,
     ) -> Vec<Lost> {
+        if self.is_hasty {
+            self.crew.calm(&self.lineup, settings.instructions);
+        }
+        self.sweep(settings.instructions);
+        self.listener.finish(&self.groups, &self.pairs);
         self.keep_multipliers();
         let worthwhile = parallel::is_worthwhile(bodies.len(), WORTHWHILE);
         let mut written = vec![[[Row::ZERO; 12]; 2]; self.lineup.solved / LANES];

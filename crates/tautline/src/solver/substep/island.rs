@@ -10,7 +10,7 @@ use super::detect::Scene;
 use super::joint::Sets;
 use super::lineup::NOBODY;
 use super::pairs::{Detail, Pair};
-use super::{RigidSolver, scene, timing};
+use super::{RigidSolver, scene};
 use crate::body::{Body, Motion};
 use crate::joint::Joints;
 use crate::particles::Particles;
@@ -77,7 +77,7 @@ impl RigidSolver {
         if !bodies.iter().any(|body| body.rest.asleep && body.is_rigid()) {
             return false;
         }
-        let woken = self.touched(bodies, joints, sleep, &timing(settings, h));
+        let woken = self.touched(bodies, joints, sleep, &self.timing(settings, h));
         self.wake_islands(bodies, joints, &woken);
         !woken.is_empty()
     }
@@ -85,7 +85,7 @@ impl RigidSolver {
     /// The sleepers that something moves against or pulls at.
     fn touched(&self, bodies: &[Body], joints: &Joints, sleep: Sleep, timing: &Timing) -> Vec<u32> {
         let slow = sleep.speed * timing.h * timing.substeps;
-        let scene = scene((&self.lineup, &self.crew, &self.versions), bodies, timing);
+        let scene = scene((&self.lineup, &self.crew, &self.versions, &self.assembly_of), bodies, timing);
         let mut woken = Vec::new();
         for (pair, detail) in
             self.pairs.pairs.iter().zip(&self.pairs.details).filter(|(pair, _)| pair.points > 0)

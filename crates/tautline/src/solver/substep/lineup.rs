@@ -216,6 +216,11 @@ impl Lineup {
         if place < self.solved as u32 + self.driven_count { copy } else { stripe.places.end - 1 }
     }
 
+    /// Where the body in a place moves in the step: a kinematic one does in its copies, of which this is the first.
+    pub(super) fn moving_place(&self, place: u32) -> u32 {
+        if self.is_driven(place) { self.velocity_place(Region::Far, place) } else { place }
+    }
+
     /// Whether this is the place of a kinematic body.
     pub(super) fn is_driven(&self, place: u32) -> bool {
         (self.solved as u32..self.solved as u32 + self.driven_count).contains(&place)

@@ -14,11 +14,14 @@ mod crew;
 mod detect;
 mod elimination;
 mod finish;
+mod foresee;
 mod group;
 mod held;
 mod island;
 mod joint;
 mod lineup;
+mod listen;
+mod meet;
 mod outside;
 mod pairs;
 mod prepare;
@@ -27,6 +30,8 @@ mod read;
 mod rigidity;
 mod rolling;
 mod stack;
+mod sweep;
+mod way;
 
 use serde::{Deserialize, Serialize};
 
@@ -45,9 +50,11 @@ use detect::{Detect, Scene};
 use group::Groups;
 use joint::JointSolver;
 use lineup::{Entry, Lineup, NOBODY, Role};
+use listen::Listener;
 use pairs::Pairs;
 use stack::{Aim, Stacks};
 
+pub(crate) use listen::Press;
 pub(crate) use outside::{Change, rotation};
 
 /// What a snapshot keeps: all that the next step depends on and that is not in the particles.
@@ -75,6 +82,11 @@ pub(crate) struct RigidSolver {
     groups: Groups,
     stacks: Stacks,
     joints: JointSolver,
+    /// Of places that are solved for, the number of the assembly that joints make of their body and others.
+    assembly_of: Vec<u32>,
+    /// Whether contacts are found anew in every substep of this step.
+    is_hasty: bool,
+    listener: Listener,
     /// Pairs of bodies that do not collide since a joint connects them, sorted.
     separated: Vec<[u32; 2]>,
     softness: Softness,
@@ -141,7 +153,9 @@ impl RigidSolver {
             solver.crew = Crew::new(&lineup, bodies);
             solver.crew.tracks = tracks;
             solver.joints.assemble(joints, &lineup);
+            solver.assembly_of = solver.joints.assembly_of(lineup.solved);
             solver.separated = joints.separated();
+            solver.listener = Listener::new(bodies);
         }
         solver.lineup = lineup;
         Some(solver)
@@ -152,6 +166,48 @@ impl RigidSolver {
         self.pairs.pairs.len()
     }
 
+    /// Forgets what concerns the last step alone.
+    pub(crate) fn begin_step(&mut self) {
+        self.is_hasty = false;
+        self.listener.begin_step();
+    }
+
+    /// Whether bodies that touch or soon may are in such a haste that contacts are to be found anew in every substep.
+    pub(crate) fn is_hasty(&self) -> bool {
+        self.is_hasty
+    }
+
+    fn assembly_of(&self, place: usize) -> u32 {
+        self.assembly_of.get(place).copied().unwrap_or(NOBODY)
+    }
+
+    /// Finds that out, once contacts have been found for the whole step.
+    ///
+    /// A contact is a plane and some points, true where the step begins. What goes several times its length until the
+    /// step ends, or turns by more than a radian, meets others elsewhere and with other points, and its inertia there
+    /// and then is another: impulses would give it energy. Bodies that joints hold turn with what holds them.
+    pub(crate) fn note_haste(&mut self) -> bool {
+        let bit = |body: u32, lanes: fn(&Track) -> u32| {
+            let place = self.lineup.place_of.get(body as usize).map_or(NOBODY, |&place| place) as usize;
+            self.crew.tracks.get(place / LANES).is_some_and(|track| lanes(track) >> (place % LANES) & 1 == 1)
+        };
+        let is_held = |body: u32| self.assembly_of(self.lineup.place_of[body as usize] as usize) != NOBODY;
+        let is_hasty = |body: u32| bit(body, |track| track.rushing) || bit(body, |track| track.turning);
+        self.is_hasty = self.crew.tracks.iter().any(|track| (track.rushing | track.turning) != 0)
+            && self.pairs.pairs.iter().filter(|pair| pair.points > 0).any(|pair| {
+                let both = [pair.a, pair.b];
+                let rushes = both.into_iter().any(|body| bit(body, |track| track.rushing));
+                rushes || !both.into_iter().any(is_held) && both.into_iter().any(is_hasty)
+            });
+        if self.is_hasty {
+            // Theirs were found for all of the step.
+            for (body, version) in (0..).zip(&mut self.versions) {
+                *version = version.wrapping_add(u32::from(is_hasty(body)));
+            }
+        }
+        self.is_hasty
+    }
+
     /// Reads the bodies and finds out who may meet whom.
     pub(crate) fn begin(
         &mut self,
@@ -159,11 +215,12 @@ impl RigidSolver {
         settings: &Settings,
         h: f32,
     ) {
-        let timing = timing(settings, h);
+        let timing = self.timing(settings, h);
         let is_first = std::mem::take(&mut self.is_stale) || self.lineup.places.is_empty();
         if is_first {
             self.line_up(bodies, particles);
             self.joints.assemble(joints, &self.lineup);
+            self.assembly_of = self.joints.assembly_of(self.lineup.solved);
             self.separated = joints.separated();
         }
         self.joints.begin(joints);
@@ -203,13 +260,14 @@ impl RigidSolver {
         }
         self.versions.resize(bodies.len(), 0);
         self.groups = Groups::new(&self.lineup);
+        self.listener = Listener::new(bodies);
     }
 
     /// Brings the contacts of all pairs up to date. Returns how many points they have.
     pub(crate) fn find_contacts(&mut self, bodies: &[Body], settings: &Settings, h: f32) -> usize {
-        let timing = timing(settings, h);
+        let timing = self.timing(settings, h);
         let Pairs { pairs, details } = &mut self.pairs;
-        let scene = scene((&self.lineup, &self.crew, &self.versions), bodies, &timing);
+        let scene = scene((&self.lineup, &self.crew, &self.versions, &self.assembly_of), bodies, &timing);
         if parallel::is_worthwhile(pairs.len(), WORTHWHILE) {
             let mut chunks: Vec<_> = pairs.chunks_mut(CHUNK).zip(details.chunks_mut(CHUNK)).collect();
             parallel::for_each(&mut chunks, true, |(pairs, details)| {
@@ -223,19 +281,22 @@ impl RigidSolver {
     }
 
     /// Makes the solver's rows.
-    pub(crate) fn prepare(&mut self, settings: &Settings, h: f32) {
+    pub(crate) fn prepare(&mut self, bodies: &[Body], settings: &Settings, h: f32) {
         self.softness = Softness::new(h, settings.separation_speed.unwrap_or(f32::INFINITY));
-        let found = stack::find(&self.pairs, (&self.lineup, &self.crew, &timing(settings, h)), &self.joints);
+        let timing = self.timing(settings, h);
+        let found = stack::find(&self.pairs, (&self.lineup, &self.crew, &timing), &self.assembly_of);
         let is_stacked = stack::marks(&found, self.pairs.pairs.len());
         self.groups.sort_in(&self.pairs, &self.lineup, &is_stacked);
         let (poses, ground) = (&self.crew.poses, self.lineup.ground());
         self.groups.prepare(&self.pairs, poses, ground, &mut self.crew.accumulated, settings.instructions);
+        self.listener.begin(&self.groups, &self.pairs, bodies, &self.lineup);
         self.stacks.begin(&found, &self.groups, &self.crew);
     }
 
     /// One substep: forces, stacks and contacts, joints, motion, stacks and contacts without bias.
     pub(crate) fn substep(&mut self, settings: &Settings, h: f32, is_first: bool) {
-        let (timing, instructions) = (timing(settings, h), settings.instructions);
+        let (timing, instructions) = (self.timing(settings, h), settings.instructions);
+        self.listener.approach(&self.groups, &self.crew.velocities, h);
         self.groups.meet(&mut self.crew, h, instructions);
         self.crew.kick(&self.lineup, is_first, instructions);
         self.joints.warm_start(&mut self.crew);
@@ -255,11 +316,25 @@ impl RigidSolver {
         self.groups.pass(Pass::Relaxing, &self.softness, &mut self.crew.velocities, instructions);
         self.groups.part(&mut self.crew.velocities, instructions);
         self.groups.resist_rolling(&mut self.crew.velocities, instructions);
+        self.listener.listen(&self.groups, &self.pairs, &self.crew, h);
     }
 
     /// What the step has made of the joints, by their index.
     pub(crate) fn finish_joints(&self, settings: &Settings, h: f32) -> Vec<(u32, JointState)> {
         self.joints.finish(settings, h)
+    }
+
+    fn timing(&self, settings: &Settings, h: f32) -> Timing {
+        let substeps = if self.is_hasty { 1.0 } else { settings.substeps as f32 };
+        let step = h * substeps;
+        Timing {
+            h,
+            substeps,
+            gravity: settings.gravity,
+            damping: settings.damping,
+            margin: MARGIN + settings.gravity.length() * step * step,
+            instructions: settings.instructions,
+        }
     }
 }
 
@@ -270,31 +345,22 @@ const CHUNK: usize = 256;
 
 /// What there is to collide, as it is when the step begins.
 fn scene<'a>(
-    (lineup, crew, versions): (&'a Lineup, &'a Crew, &'a [u32]),
+    (lineup, crew, versions, assembly_of): (&'a Lineup, &'a Crew, &'a [u32], &'a [u32]),
     bodies: &'a [Body],
     timing: &Timing,
 ) -> Scene<'a> {
+    let step = timing.h * timing.substeps;
     Scene {
         bodies,
         versions,
         place_of: &lineup.place_of,
+        assembly_of,
         shapes: &crew.shapes,
         poses: &crew.poses,
         velocities: &crew.velocities,
         substeps: timing.substeps,
+        has_fast: crew.has_fast(timing.substeps),
         margin: timing.margin,
-    }
-}
-
-fn timing(settings: &Settings, h: f32) -> Timing {
-    let substeps = settings.substeps as f32;
-    let step = h * substeps;
-    Timing {
-        h,
-        substeps,
-        gravity: settings.gravity,
-        damping: settings.damping,
-        margin: MARGIN + settings.gravity.length() * step * step,
-        instructions: settings.instructions,
+        fall: timing.gravity * (0.5 * step * (step + timing.h)),
     }
 }

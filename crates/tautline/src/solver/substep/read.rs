@@ -13,6 +13,13 @@ const TOLERANCE: f32 = 2.5e-4;
 /// By how much the speed of a body counts for how far ahead its pairs are found.
 const LOOK_AHEAD: f32 = 1.5;
 
+/// What goes less far than this in a step is in no haste, in m, however small it is.
+const RUSH: f32 = 0.25;
+
+/// A body in which this ratio of the moments of inertia turns by a radian in a step, or one with four times the ratio by
+/// half of that, has another inertia then.
+const SLENDER: f32 = 256.0;
+
 /// Particles to blocks and rows.
 pub(super) struct Read<'a, 'b> {
     pub(super) squad: &'a mut Squad<'b>,
@@ -123,8 +130,21 @@ fn kick<L: Lanes>(timing: &Timing, is_forced: bool, block: &Block, inputs: &Inpu
 #[inline(always)]
 fn track<L: Lanes>(timing: &Timing, block: &Block, motion: Motion<L>, track: &mut Track) -> L {
     let substeps = L::splat(timing.substeps);
-    let turning = motion.angular.length() * L::load(&block.constants.reach) * substeps;
-    let look_ahead = motion.linear.length() * substeps * L::splat(LOOK_AHEAD);
+    let reach = L::load(&block.constants.reach);
+    let turning = motion.angular.length() * reach * substeps;
+    let way = motion.linear.length() * substeps;
+    let look_ahead = way * L::splat(LOOK_AHEAD);
+    let rush = way.greater((reach + reach).max(L::splat(RUSH)));
+    // Balls may turn as they like.
+    let room = reach - L::load(&block.constants.inner_radius);
+    let (square, whirl, swing) = (reach * reach, turning * room, (turning + way) * room);
+    let whirls = whirl.greater(square);
+    // A blow turns what flies by about as much as it would have gone.
+    let inertia = Vec3x8::<L>::load(&block.constants.inertia);
+    let largest = inertia.x.max(inertia.y).max(inertia.z);
+    let least = inertia.x.min(inertia.y).min(inertia.z);
+    let swings = (swing * swing * largest).greater(square * square * least * L::splat(SLENDER));
+    (track.rushing, track.turning) = (rush.bits(), whirls.bits() | swings.bits());
     let need = look_ahead + turning + L::splat(0.5 * timing.margin);
     need.store(&mut track.need);
     let moved = block.moved_squared::<L>(&track.seen.center, &track.seen.axes);

@@ -15,6 +15,11 @@ use super::block::Block;
 const ITERATIONS: usize = 3;
 /// Half the angle, in rad, up to which a substep's rotation is solved for; beyond, a body keeps its ω.
 pub(super) const FASTEST: f32 = 0.5;
+/// From this ratio of its moments of inertia on a body is too fast sooner: a rotation that is off by ε turns ε of the
+/// angular momentum onto the axis of the least moment, and adds ε² times the ratio to the energy.
+const SLENDER: f32 = 16.0;
+/// From here on more energy than there was is not rounding.
+const ROUNDED: f32 = 1.0001;
 
 /// Moves eight bodies by a substep of `h` (s) and returns their rows after it, damped by their own rates and that of
 /// the world (1/s).
@@ -41,6 +46,23 @@ pub(super) fn advance<L: Lanes>(block: &mut Block, columns: &[L; LANES], h: f32,
     let linear = Vec3x8::new(x, y, z) * kept(&block.constants.damping[0], h, damping);
     let angular = (Vec3x8::new(p, q, r) + change) * kept(&block.constants.damping[1], h, damping);
     [linear.x, linear.y, linear.z, mass, angular.x, angular.y, angular.z, response]
+}
+
+/// The rows of bodies that have moved, those of which turned too fast with no more energy than was given to them.
+///
+/// What acts on a body after it has moved acts on the inertia of where the step began. A rod has turned since then, and
+/// what made it spin about its axis would have it spin across that, with the energy of that.
+#[inline(always)]
+pub(super) fn calmed<L: Lanes>(block: &Block, columns: [L; LANES]) -> [L; LANES] {
+    let angular = block.motion(&columns).angular;
+    let inertia = Vec3x8::<L>::load(&block.constants.inertia);
+    let [x, y, z, mass, p, q, r, response] = columns;
+    let given = Vec3x8::new(p, q, r).length_squared();
+    let found = angular.scale(Vec3x8::load(&block.constants.root_inertia)).length_squared();
+    let gains = found.greater(given * L::splat(ROUNDED)).and(response.greater(L::splat(0.0)));
+    let gains = gains.and(is_too_fast(angular * L::splat(0.5), inertia));
+    let kept = gains.select((given / found).sqrt(), L::splat(1.0));
+    [x, y, z, mass, p * kept, q * kept, r * kept, response]
 }
 
 /// Axes that are unit and right-angled again: what rounding adds to them in every substep would otherwise add up in
@@ -71,6 +93,16 @@ fn real_part<L: Lanes>(u: Vec3x8<L>) -> L {
     (L::splat(1.0) - u.length_squared()).max(L::splat(0.1)).sqrt()
 }
 
+/// Whether the iteration leaves more than it may, about |half|⁴.
+#[inline(always)]
+fn is_too_fast<L: Lanes>(half: Vec3x8<L>, inertia: Vec3x8<L>) -> L {
+    let largest = inertia.x.max(inertia.y).max(inertia.z);
+    let least = inertia.x.min(inertia.y).min(inertia.z);
+    let squared = half.length_squared() * L::splat(1.0 / (FASTEST * FASTEST));
+    let fourth = squared * squared;
+    (fourth * fourth * largest.max(least * L::splat(SLENDER))).greater(least * L::splat(SLENDER))
+}
+
 /// A rotation Q in a body's frame, as a unit quaternion.
 struct Turn<L> {
     imaginary: Vec3x8<L>,
@@ -86,7 +118,7 @@ impl<L: Lanes> Turn<L> {
         let one = L::splat(1.0);
         let inverse = Vec3x8::new(one / inertia.x, one / inertia.y, one / inertia.z);
         let half = angular * L::splat(0.5);
-        let is_too_fast = half.length_squared().greater(L::splat(FASTEST * FASTEST));
+        let is_too_fast = is_too_fast(half, inertia);
         let mut u = half;
         for _ in 0..ITERATIONS {
             let coupling = u.cross(u.scale(inertia)).scale(inverse);

@@ -60,13 +60,19 @@ impl JointSolver {
         self.assemblies = members.values().map(|members| assembly(members, is_solved, mover)).collect();
     }
 
-    /// Of each place whether joints hold its body.
-    pub(super) fn held(&self, place_count: usize) -> Vec<bool> {
-        let mut is_held = vec![false; place_count];
-        for mover in self.assemblies.iter().flat_map(|assembly| &assembly.movers[..assembly.solved]) {
-            is_held[mover.place as usize] = true;
+    /// Of each place the number of the assembly that its body is in, or `NOBODY`.
+    pub(super) fn assembly_of(&self, place_count: usize) -> Vec<u32> {
+        let mut assembly_of = vec![NOBODY; place_count];
+        for number in 0..self.assemblies.len() as u32 {
+            self.members(number).for_each(|place| assembly_of[place as usize] = number);
         }
-        is_held
+        assembly_of
+    }
+
+    /// The places of an assembly's bodies, but for those that move as they are told.
+    pub(super) fn members(&self, assembly: u32) -> impl Iterator<Item = u32> + '_ {
+        let assembly = &self.assemblies[assembly as usize];
+        assembly.movers[..assembly.solved].iter().map(|mover| mover.place)
     }
 
     /// Takes over what has been set since the last step.

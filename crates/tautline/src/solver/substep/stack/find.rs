@@ -9,8 +9,8 @@ use glam::Vec3;
 
 use super::super::crew::{Crew, Timing};
 use super::super::held::Held;
-use super::super::joint::{JointSolver, Sets};
-use super::super::lineup::Lineup;
+use super::super::joint::Sets;
+use super::super::lineup::{Lineup, NOBODY};
 use super::super::pairs::Pairs;
 
 /// The most bodies of a stack, and pairs of parts.
@@ -48,23 +48,22 @@ struct Island {
     touches: Vec<Touch>,
 }
 
-/// Finds all stacks. Without gravity there are none: nothing leans.
+/// Finds all stacks, given what joints hold. Without gravity there are none: nothing leans.
 pub(in super::super) fn find(
     pairs: &Pairs,
     (lineup, crew, timing): (&Lineup, &Crew, &Timing),
-    joints: &JointSolver,
+    assembly_of: &[u32],
 ) -> Vec<Found> {
     if timing.gravity == Vec3::ZERO {
         return Vec::new();
     }
-    let is_held = joints.held(lineup.solved);
     let quiet = QUIET * timing.h * timing.substeps;
     let mut left = MOST_IN_ALL;
     let mut is_stack = |island: &Island| {
         let Island { places, touches } = island;
         let is_one = places.len() <= MOST_BODIES.min(left)
             && touches.len() <= MOST_PAIRS
-            && !places.iter().any(|&place| is_held[place as usize])
+            && !places.iter().any(|&place| assembly_of[place as usize] != NOBODY)
             && fastest(touches, pairs, (crew, timing.substeps)) < quiet
             && (is_hard(places, touches, crew) || places.len() <= FEW && is_delicate(touches, pairs));
         left -= if is_one { places.len() } else { 0 };
