@@ -87,3 +87,7 @@ impl Batch {
         }
     }
 }
+
+#[cfg(test)]
+#[path = "tests/batch.rs"]
+mod tests;

@@ -56,3 +56,7 @@ fn straighten_eight<L: Lanes>(
     positions.write(b, at_b + multiplier * (masses[1] * L::splat(-2.0)));
     positions.write(c, at_c + multiplier * masses[2]);
 }
+
+#[cfg(test)]
+#[path = "tests/bend.rs"]
+mod tests;

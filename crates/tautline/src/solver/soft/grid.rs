@@ -91,3 +91,7 @@ impl Grid {
         }
     }
 }
+
+#[cfg(test)]
+#[path = "tests/grid.rs"]
+mod tests;

@@ -330,3 +330,7 @@ pub(super) fn lay_flat(grid: &super::grid::Grid, edges: [f32; 2], material: &mut
         }
     }
 }
+
+#[cfg(test)]
+#[path = "tests/meet.rs"]
+mod tests;

@@ -289,3 +289,6 @@ fn rate_of(bodies: &[Body]) -> f32 {
     let fineness = bodies.iter().map(finest).max().unwrap_or(0);
     (LEAST_RATE + RATE_PER_PARTICLE * fineness as f32).clamp(RATES[0], RATES[1])
 }
+
+#[cfg(test)]
+mod tests;

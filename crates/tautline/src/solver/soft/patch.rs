@@ -81,3 +81,7 @@ fn total<L: Lanes>(lanes: Vec3x8<L>) -> Vec3 {
     let sum = |row: &crate::simd::Row| (0..LANES).map(|lane| row.0[lane]).sum::<f32>();
     Vec3::new(sum(&rows[0]), sum(&rows[1]), sum(&rows[2]))
 }
+
+#[cfg(test)]
+#[path = "tests/patch.rs"]
+mod tests;

@@ -182,3 +182,7 @@ fn bending_of(rigidity: f32, [along, down]: [f32; 2], h: f32) -> [f32; 2] {
     let compliance = |edge: f32, width: f32| edge * edge * edge / (rigidity * width) / (2.0 * h * h);
     [compliance(along, down), compliance(down, along)]
 }
+
+#[cfg(test)]
+#[path = "tests/piece.rs"]
+mod tests;

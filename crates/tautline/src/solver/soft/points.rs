@@ -206,3 +206,7 @@ pub(super) fn first<L: Lanes>(count: usize) -> L {
     const NUMBERS: [f32; LANES] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
     L::splat(count as f32).greater(L::read(&NUMBERS))
 }
+
+#[cfg(test)]
+#[path = "tests/points.rs"]
+mod tests;

@@ -196,3 +196,7 @@ fn from_triangle<L: Lanes>(points: Vec3x8<L>, corners: &[Vec3; 3]) -> Vec3x8<L> 
     let height = (points - Vec3x8::splat(a)).dot(normal);
     Vec3x8::select(over, normal * height, nearest)
 }
+
+#[cfg(test)]
+#[path = "tests/probe.rs"]
+mod tests;

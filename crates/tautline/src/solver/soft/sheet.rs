@@ -168,3 +168,7 @@ fn eights_of_row(grid: &Grid) -> impl Iterator<Item = (usize, usize)> + use<> {
     let eights = grid.half / LANES;
     (0..2).flat_map(move |parity| (0..eights).map(move |of_half| (parity, of_half)))
 }
+
+#[cfg(test)]
+#[path = "tests/sheet.rs"]
+mod tests;

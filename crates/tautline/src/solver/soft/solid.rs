@@ -172,3 +172,7 @@ fn turned_box(low: Vec3, high: Vec3, stance: &Stance) -> Bounds {
     let extent = x * half.x + y * half.y + z * half.z;
     Bounds { low: center - extent, high: center + extent }
 }
+
+#[cfg(test)]
+#[path = "tests/solid.rs"]
+mod tests;

@@ -126,3 +126,7 @@ pub(super) fn relax_spans<L: Lanes>(
     (at_a + pull * masses[0]).write(positions, a);
     (at_b - pull * masses[1]).write(positions, b);
 }
+
+#[cfg(test)]
+#[path = "tests/stick.rs"]
+mod tests;

@@ -256,3 +256,7 @@ fn nearest_shares(a: [Vec3; 2], b: [Vec3; 2]) -> [f32; 2] {
         [share_a, share_b]
     }
 }
+
+#[cfg(test)]
+#[path = "tests/strand.rs"]
+mod tests;

@@ -117,3 +117,7 @@ pub(super) fn distances_along(sticks: &[Stick], count: usize, from: u32) -> Vec<
     }
     distances
 }
+
+#[cfg(test)]
+#[path = "tests/tether.rs"]
+mod tests;

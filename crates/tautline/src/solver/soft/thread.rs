@@ -117,3 +117,7 @@ impl<S> Threads<S> {
         }
     }
 }
+
+#[cfg(test)]
+#[path = "tests/thread.rs"]
+mod tests;

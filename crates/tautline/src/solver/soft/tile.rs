@@ -111,3 +111,7 @@ pub(super) fn inside<L: Lanes>(points: &Points, place: usize, bounds: &Bounds) -
     let above = at.x.greater(high.x).bits() | at.y.greater(high.y).bits() | at.z.greater(high.z).bits();
     !(below | above) & points.are_there::<L>(place).bits()
 }
+
+#[cfg(test)]
+#[path = "tests/tile.rs"]
+mod tests;

@@ -299,3 +299,7 @@ impl Touch {
         }
     }
 }
+
+#[cfg(test)]
+#[path = "tests/touch.rs"]
+mod tests;

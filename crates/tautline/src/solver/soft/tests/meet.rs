@@ -1,0 +1,234 @@
+use std::collections::BTreeSet;
+
+use super::*;
+use crate::simd::Kernel;
+use crate::solver::soft::grid::Grid;
+use crate::solver::soft::patch::cone_of;
+use crate::solver::soft::points::set;
+use crate::solver::soft::tests::{noise3, on_all, put_wavy};
+use crate::solver::soft::tile::tiles_of_grid;
+
+const DISTANCE: f32 = 0.12;
+const SMALL: usize = 80;
+
+/// Two sheets of cells of 10 cm, the upper one with its far half folded back over the near one.
+#[derive(Debug, Clone)]
+struct Scene {
+    grids: [Grid; 2],
+    points: Points,
+    meetings: Meetings,
+}
+
+fn scene(meets_itself: bool) -> Scene {
+    let first = Grid::new(0, 34, 18);
+    let grids = [first, Grid::new(first.places().end, 19, 12)];
+    let end = grids[1].places().end;
+    let mut points = Points::default();
+    points.reset(end);
+    grids.iter().zip([0.3, 0.0]).for_each(|(grid, height)| put_wavy(&mut points, grid, height));
+    let mut meetings = Meetings::default();
+    meetings.reset(points.inverse_mass.len());
+    for grid in &grids {
+        lay_flat(grid, [0.1, 0.1], &mut meetings.material);
+        let exempt = Exempt::Within(0.1 * 2.0_f32.sqrt() * 1.001);
+        meetings.add(&tiles_of_grid(grid), meets_itself, DISTANCE, exempt, 0.3);
+    }
+    let folded = &grids[0];
+    for (row, column) in (0..18).flat_map(|row| (17..34).map(move |column| (row, column))) {
+        let place = folded.place(row, column);
+        let at = points.at(place);
+        let at = Vec3::new(3.3 - at.x, at.y + 0.1, at.z);
+        set(&mut points.position, place, at);
+        set(&mut points.predicted, place, at);
+    }
+    meetings.forget(&points);
+    Scene { grids, points, meetings }
+}
+
+impl Scene {
+    #[inline(always)]
+    fn look<L: Lanes>(&mut self, has_cones: bool) {
+        for tile in 0..self.meetings.tiles.len() {
+            let grid = &self.grids[self.meetings.member_of[tile] as usize];
+            let cone = if has_cones {
+                cone_of::<L>(grid, &self.meetings.tiles[tile].clone(), &self.points)
+            } else {
+                Cone::ALL
+            };
+            self.meetings.update_tile::<L>(tile, &self.points, cone);
+        }
+        self.meetings.look::<L>(&self.points);
+    }
+
+    fn drift(&mut self, step: usize) {
+        for place in 0..self.points.inverse_mass.len() {
+            let side = if place < self.grids[1].start { -1.0 } else { 1.0 };
+            let motion = Vec3::Y * (side * 0.002) + noise3(place) * 0.002;
+            if self.points.presence[place] == 1.0 {
+                self.points.shift(place, motion * (1.0 + 0.3 * (step as f32).sin()));
+            }
+        }
+    }
+
+    fn listed(&self) -> BTreeSet<[u32; 2]> {
+        let pairs = self.meetings.lists.iter().flat_map(|list| &list.pairs);
+        let mut sorted = BTreeSet::new();
+        for &[a, b] in pairs {
+            assert!(sorted.insert([a.min(b), a.max(b)]), "{a} and {b} are listed twice");
+        }
+        sorted
+    }
+
+    /// Row and column, and the sheet.
+    fn particles(&self) -> Vec<(usize, [usize; 2], u32)> {
+        let of = |sheet: usize| {
+            let grid = self.grids[sheet];
+            let cells =
+                (0..grid.rows).flat_map(move |row| (0..grid.columns).map(move |column| [row, column]));
+            cells.map(move |[row, column]| (sheet, [row, column], grid.place(row, column) as u32))
+        };
+        of(0).chain(of(1)).collect()
+    }
+
+    /// All pairs nearer than `reach`, but for neighbours in the material and tiles whose cones are smooth.
+    fn near(&self, reach: f32, meets_itself: bool) -> BTreeSet<[u32; 2]> {
+        let particles = self.particles();
+        let mut tile_of = vec![0; self.points.inverse_mass.len()];
+        for (number, tile) in self.meetings.tiles.iter().enumerate() {
+            for &eight in &tile.eights {
+                tile_of[eight as usize..eight as usize + 8].fill(number);
+            }
+        }
+        let mut near = BTreeSet::new();
+        for (number, &(sheet, at, place)) in particles.iter().enumerate() {
+            for &(other_sheet, other_at, other) in &particles[number + 1..] {
+                let is_one = sheet == other_sheet;
+                let rings = (0..2).map(|k| at[k].abs_diff(other_at[k])).max();
+                let (a, b) = (tile_of[place as usize], tile_of[other as usize]);
+                let to = [a, b].map(|tile| self.meetings.tiles[tile].at);
+                let beside = is_one && (0..2).all(|k| to[0][k].abs_diff(to[1][k]) <= 1);
+                let cones = [a, b].map(|tile| self.meetings.cones[tile]);
+                let is_skipped = beside && cones[0].is_smooth_with(&cones[1], SMOOTH);
+                let is_exempt = is_one && (!meets_itself || rings <= Some(1));
+                let distance = self.points.at(place as usize).distance(self.points.at(other as usize));
+                if distance < reach && !is_exempt && !is_skipped {
+                    near.insert([place.min(other), place.max(other)]);
+                }
+            }
+        }
+        near
+    }
+}
+
+struct Look(Scene, bool);
+
+impl Kernel for Look {
+    type Output = Scene;
+
+    #[inline(always)]
+    fn run<L: Lanes>(mut self) -> Scene {
+        self.0.look::<L>(self.1);
+        self.0
+    }
+}
+
+#[test]
+fn all_pairs_within_the_margin_are_listed_and_no_others() {
+    for has_cones in [false, true] {
+        for meets_itself in [false, true] {
+            let start = scene(meets_itself);
+            let found = on_all(|| Look(start.clone(), has_cones));
+            let reach = DISTANCE * (1.0 + MARGIN);
+            let (sure, near) =
+                (found.near(reach - 1e-5, meets_itself), found.near(reach + 1e-5, meets_itself));
+            let listed = found.listed();
+            assert!(listed.is_superset(&sure) && listed.is_subset(&near));
+            let least = if meets_itself { SMALL } else { 0 };
+            assert!(sure.len() > least, "{} pairs are near", sure.len());
+        }
+    }
+}
+
+#[test]
+fn all_that_is_too_close_stays_listed_while_sheets_move() {
+    for has_cones in [false, true] {
+        let mut moving = on_all(|| Look(scene(true), has_cones));
+        let (mut kept, mut most) = (0, 0);
+        for step in 0..40 {
+            // Until the next look, too.
+            moving.drift(step);
+            let close = moving.near(DISTANCE, true);
+            assert!(close.is_subset(&moving.listed()), "step {step}, before the look");
+            moving = on_all(|| Look(moving.clone(), has_cones));
+            let close = moving.near(DISTANCE, true);
+            assert!(close.is_subset(&moving.listed()), "step {step}, after the look");
+            kept += moving.meetings.lists.iter().filter(|list| list.moved > 0.0).count();
+            most = most.max(close.len());
+        }
+        assert!(kept > 100 && most > SMALL, "{kept} lists were kept, {most} pairs close");
+    }
+}
+
+#[test]
+fn it_does_not_matter_when_lists_were_made() {
+    let mut kept = scene(true);
+    // Where much overlaps, a pass moves particles by more than the margin.
+    for _ in 0..20 {
+        kept.meetings.forget(&kept.points);
+        kept = on_all(|| Look(kept.clone(), true));
+        kept.meetings.part(&mut kept.points);
+    }
+    let mut fresh = kept.clone();
+    for step in 0..30 {
+        for scene in [&mut kept, &mut fresh] {
+            scene.drift(step);
+        }
+        fresh.meetings.forget(&fresh.points);
+        kept = on_all(|| Look(kept.clone(), true));
+        fresh = on_all(|| Look(fresh.clone(), true));
+        for scene in [&mut kept, &mut fresh] {
+            scene.meetings.part(&mut scene.points);
+        }
+        assert!(kept.points.position == fresh.points.position, "step {step}");
+        assert!(kept.points.predicted == fresh.points.predicted, "step {step}");
+    }
+}
+
+/// Pairs that are too close end at their distance; what they lose of their motion is not given to anything else.
+#[test]
+fn a_pair_is_parted_and_keeps_its_momentum() {
+    for (gap, closing) in [(0.05, 0.0), (0.05, 0.02), (0.11, 0.1), (0.13, 0.1)] {
+        let mut points = Points::default();
+        points.reset(8);
+        for (place, side) in [(0, -0.5), (1, 0.5)] {
+            let direction = Vec3::new(0.6, 0.0, 0.8);
+            set(&mut points.position, place, direction * (side * gap));
+            set(&mut points.predicted, place, direction * (side * gap));
+            set(&mut points.displacement, place, direction * (-side * closing) + Vec3::Y * (side * 0.01));
+            points.inverse_mass[place] = if place == 0 { 1.0 } else { 3.0 };
+        }
+        let momentum = |points: &Points| points.motion(0) + points.motion(1) / 3.0;
+        let before = momentum(&points);
+        part_pair(&mut points, 0, 1, DISTANCE, 0.25);
+        let apart = points.at(0).distance(points.at(1));
+        let slip = points.motion(1) - points.motion(0);
+        assert!((momentum(&points) - before).length() < 1e-8);
+        let expected = if gap < DISTANCE { DISTANCE.hypot(0.0025) } else { gap };
+        assert!((apart - expected).abs() < 1e-6, "{gap}: {apart}");
+        assert!((slip.y - if gap < DISTANCE { 0.0075 } else { 0.01 }).abs() < 1e-7, "{slip}");
+        let along = slip.dot(Vec3::new(0.6, 0.0, 0.8));
+        let left = closing - (DISTANCE - gap).clamp(0.0, closing);
+        assert!((along + left).abs() < 1e-7, "{along}, not {left}");
+    }
+}
+
+/// Along sticks, those within a distance are exempt; and direct neighbours always.
+#[test]
+fn neighbours_along_sticks_are_exempt() {
+    let stick = |a: u32, rest_length: f32| Stick { a, b: a + 1, rest_length };
+    let sticks: Vec<Stick> =
+        [0.1, 0.1, 0.5, 0.1, 0.2].into_iter().zip(0..).map(|(l, a)| stick(a, l)).collect();
+    let Exempt::Listed(16, lists) = Exempt::along(&sticks, 6, 16, 0.25) else { panic!("it lists") };
+    let expected: [&[u32]; 6] = [&[17, 18], &[18], &[19], &[20], &[21], &[]];
+    assert_eq!(lists, expected);
+}

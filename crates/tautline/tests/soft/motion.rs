@@ -1,0 +1,50 @@
+//! How cloth and rope move under forces, pins and grabs.
+
+use tautline::{Cloth, Grip, Rope, Settings, Vec3, World};
+
+use super::{center, positions, run};
+
+#[test]
+fn pinned_particles_stay_to_the_bit() {
+    let mut world = World::new(Settings::default()).unwrap();
+    let cloth = Cloth::grid(14, 10, 1.3, 0.9).position(Vec3::new(0.1, 0.7, -0.3));
+    let cloth = world.add(cloth.pin(3).pin(60).pin(139)).unwrap();
+    let rope =
+        world.add(Rope::straight(Vec3::new(3.0, 0.1, 0.7), Vec3::new(4.0, 0.3, 0.1), 10).pin(4)).unwrap();
+    let starts = [positions(&world, cloth), positions(&world, rope)];
+    run(&mut world, 2.0);
+    for pin in [3, 60, 139] {
+        assert_eq!(positions(&world, cloth)[pin], starts[0][pin]);
+    }
+    assert_eq!(positions(&world, rope)[4], starts[1][4]);
+    assert!(positions(&world, rope)[0].distance(starts[1][0]) > 0.1, "the others swing");
+}
+
+#[test]
+fn a_pin_that_is_taken_out_lets_a_particle_fall() {
+    let mut world = World::new(Settings::default()).unwrap();
+    let rope = world.add(Rope::straight(Vec3::ZERO, Vec3::NEG_Y, 10).pin(0)).unwrap();
+    run(&mut world, 1.0);
+    let before = center(&world, rope).y;
+    world.unpin(rope, 0).unwrap();
+    run(&mut world, 0.5);
+    let fallen = before - center(&world, rope).y;
+    assert!((fallen - 0.5 * 9.81 * 0.25).abs() < 0.02, "it has fallen {fallen} m");
+}
+
+#[test]
+fn a_grabbed_corner_follows_and_the_cloth_hangs_from_it() {
+    let mut world = World::new(Settings::default()).unwrap();
+    let cloth = world.add(Cloth::grid(12, 12, 1.0, 1.0)).unwrap();
+    let grab = world.grab(cloth, Vec3::new(-0.5, 0.0, -0.5), Grip::default()).unwrap();
+    let target = Vec3::new(0.3, 0.8, 0.1);
+    world.move_grab(grab, target).unwrap();
+    run(&mut world, 3.0);
+    let held = positions(&world, cloth)[0];
+    assert!(held.distance(target) < 0.02, "{held} instead of {target}");
+    let below = target - center(&world, cloth);
+    assert!(below.y > 0.4, "its centre is {below} below");
+    world.release(grab).unwrap();
+    run(&mut world, 0.5);
+    assert!(positions(&world, cloth)[0].y < target.y - 1.0, "it falls when it is let go");
+}
