@@ -107,9 +107,7 @@ pub(crate) fn sleepers_near_movers(
     let near = |body: &Body| (body.is_soft(), reach_of(body, particles));
     let mut movers: Vec<(bool, Bounds)> = bodies
         .iter()
-        .filter(|body| {
-            (body.is_soft() || body.is_rigid()) && moves(body, particles, WAKING_SPEED * sleep.speed)
-        })
+        .filter(|body| (body.is_soft() || body.is_rigid()) && moves(body, particles, sleep))
         .map(near)
         .collect();
     let mut sleepers: Vec<usize> = (0..bodies.len()).filter(|&index| is_sleeper(&bodies[index])).collect();
@@ -129,11 +127,14 @@ pub(crate) fn sleepers_near_movers(
     woken
 }
 
-/// Whether a body moves faster than `speed` (m/s) anywhere.
-fn moves(body: &Body, particles: &Particles, speed: f32) -> bool {
-    let reach = speed * body.displacement_time();
-    body.is_awake()
-        && particles.displacement[body.particles.clone()].iter().any(|d| d.length_squared() > reach * reach)
+/// Whether a body moves enough to wake others. Of cloth and rope drift tells, since particles that are pulled to and fro in
+/// small steps have speeds that lead nowhere.
+fn moves(body: &Body, particles: &Particles, sleep: Sleep) -> bool {
+    if body.is_soft() {
+        return body.is_awake() && body.rest.still_for < sleep.seconds / (WAKING_SPEED * WAKING_SPEED);
+    }
+    let reach = WAKING_SPEED * sleep.speed * body.displacement_time();
+    body.is_awake() && particles.displacement[body.particles.clone()].iter().any(|d| d.length() > reach)
 }
 
 /// The box around a body and how far it touches, in m.
