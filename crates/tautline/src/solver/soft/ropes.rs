@@ -82,3 +82,7 @@ impl Bundle {
         }
     }
 }
+
+#[cfg(test)]
+#[path = "tests/ropes.rs"]
+mod tests;
