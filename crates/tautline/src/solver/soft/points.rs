@@ -109,8 +109,9 @@ impl Points {
         let (masses, is_kicked) = (eights(inverse_mass), !kicks.0[0].is_empty());
         let (share, per_lively) = (L::splat(step.calming.share), L::splat(1.0 / step.calming.lively));
         let mut fastest = zero;
-        for eight in places.start / LANES..places.end / LANES {
-            let is_free = L::read(&masses[eight]).greater(zero);
+        let masses = &masses[..places.end / LANES];
+        for (eight, mass) in masses.iter().enumerate().skip(places.start / LANES) {
+            let is_free = L::read(mass).greater(zero);
             let at = positions.read::<L>(eight);
             let moved = displacements.read(eight) + (at - starts.read(eight));
             let mut motion = moved * keep + fall;

@@ -48,7 +48,7 @@ pub(super) struct Stance {
 }
 
 impl Stance {
-    pub(super) fn to_local(&self, point: Vec3) -> Vec3 {
+    pub(super) fn to_local(self, point: Vec3) -> Vec3 {
         self.axes.transpose() * (point - self.center)
     }
 }

@@ -176,7 +176,7 @@ fn it_does_not_matter_when_lists_were_made() {
     for _ in 0..20 {
         kept.meetings.forget(&kept.points);
         kept = on_all(|| Look(kept.clone(), true));
-        kept.meetings.part(&mut kept.points);
+        kept.meetings.part(&mut kept.points, f32::MAX);
     }
     let mut fresh = kept.clone();
     for step in 0..30 {
@@ -187,7 +187,7 @@ fn it_does_not_matter_when_lists_were_made() {
         kept = on_all(|| Look(kept.clone(), true));
         fresh = on_all(|| Look(fresh.clone(), true));
         for scene in [&mut kept, &mut fresh] {
-            scene.meetings.part(&mut scene.points);
+            scene.meetings.part(&mut scene.points, f32::MAX);
         }
         assert!(kept.points.position == fresh.points.position, "step {step}");
         assert!(kept.points.predicted == fresh.points.predicted, "step {step}");
@@ -209,7 +209,7 @@ fn a_pair_is_parted_and_keeps_its_momentum() {
         }
         let momentum = |points: &Points| points.motion(0) + points.motion(1) / 3.0;
         let before = momentum(&points);
-        part_pair(&mut points, 0, 1, DISTANCE, 0.25);
+        part_pair(&mut points, [0, 1], (DISTANCE, f32::MAX), 0.25);
         let apart = points.at(0).distance(points.at(1));
         let slip = points.motion(1) - points.motion(0);
         assert!((momentum(&points) - before).length() < 1e-8);

@@ -132,7 +132,7 @@ fn crossing_segments_are_parted_and_momentum_is_kept() {
         let middle = |points: &Points| -> Vec3 { (0..4).map(|k| points.at(k) / masses[k]).sum() };
         let (before, place) = (momentum(&points), middle(&points));
         let near = Near { a: [0, 1], b: [2, 3], distance: 0.05, friction: 0.0, leaning: u32::MAX };
-        assert!(near.part(&mut points));
+        assert!(near.part(&mut points, f32::MAX));
         let now = [[0, 1], [2, 3]].map(|ends| ends.map(|k| points.at(k)));
         let shares = nearest_shares(now[0], now[1]).map(f64::from);
         let apart = gap(now[0], now[1], shares);

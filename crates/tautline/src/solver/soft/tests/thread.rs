@@ -46,8 +46,9 @@ fn solve_dense(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Vec<f64> {
         right.swap(k, pivot);
         for row in k + 1..n {
             let factor = matrix[row][k] / matrix[k][k];
-            for column in k..n {
-                matrix[row][column] -= factor * matrix[k][column];
+            let pivots = matrix[k].clone();
+            for (number, pivot) in matrix[row].iter_mut().zip(pivots).skip(k) {
+                *number -= factor * pivot;
             }
             right[row] -= factor * right[k];
         }
