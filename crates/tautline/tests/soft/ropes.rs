@@ -36,3 +36,21 @@ fn a_cloth_hangs_over_a_rope() {
     assert!(stretch(&world, rope) < 5e-3, "{}", stretch(&world, rope));
     assert!(stretch(&world, cloth) < 0.05, "{}", stretch(&world, cloth));
 }
+
+/// The ends of shorter ropes were once pulled to where a longer one beside them went on.
+#[test]
+fn ropes_of_different_lengths_do_not_move_each_other() {
+    let mut world = World::new(Settings { gravity: Vec3::ZERO, ..Settings::default() }).unwrap();
+    let rope = |x: f32, segments: u32| {
+        Rope::straight(Vec3::new(x, 0.0, 0.0), Vec3::new(x, 0.1 * segments as f32, 0.0), segments)
+    };
+    let ropes = [(0.0, 40), (5.0, 24), (10.0, 24), (15.0, 1)]
+        .map(|(x, segments)| world.add(rope(x, segments)).unwrap());
+    let before = ropes.map(|rope| positions(&world, rope));
+    run(&mut world, 1.0);
+    for (rope, before) in ropes.into_iter().zip(before) {
+        let moved =
+            positions(&world, rope).iter().zip(&before).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
+        assert!(moved < 1e-3, "a particle moved {moved} m");
+    }
+}

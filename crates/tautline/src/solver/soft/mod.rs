@@ -176,7 +176,10 @@ impl SoftSolver {
         }
         ropes.sort_by_key(|rope: &Rope| (rope.spans.len(), rope.start));
         let mean = self.pieces.iter().map(|piece| piece.mean_inverse_mass).fold(0.0, f32::max);
-        self.bundles = ropes.chunks(LANES).map(|ropes| Bundle::new(ropes.to_vec(), mean)).collect();
+        // What follows the end of a shorter rope would pull at it: only ropes of one length go side by side.
+        let alike = ropes.chunk_by(|a, b| a.spans.len() == b.spans.len());
+        let bundle = |ropes: &[Rope]| Bundle::new(ropes.to_vec(), mean);
+        self.bundles = alike.flat_map(|ropes| ropes.chunks(LANES)).map(bundle).collect();
     }
 
     /// One substep of `h` (s), after the rigid bodies have made theirs.

@@ -24,7 +24,7 @@ pub(super) struct Bundle {
 }
 
 impl Bundle {
-    /// At most eight; the shorter ones end in knots that weigh nothing.
+    /// At most eight, all of as many knots.
     pub(super) fn new(ropes: Vec<Rope>, mean_inverse_mass: f32) -> Self {
         let knots = ropes.iter().map(|rope| rope.spans.len() + 1).max().unwrap_or(1);
         let mut spans = vec![[Row([1.0; LANES]), Row([1.0; LANES]), Row::ZERO]; knots - 1];

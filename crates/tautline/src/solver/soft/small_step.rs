@@ -263,6 +263,11 @@ impl Kernel for SweepWindows<'_, '_> {
             }
             let windows = sheet.windows.windows.iter().zip(&sheet.windows.touches);
             for (window, listed) in windows.filter(|(_, listed)| !listed.is_empty()) {
+                // What moves in turn is pushed once in a small step: all that it gets is to be in the velocity of what pushes.
+                let solid_of = |number: &u32| &self.solids[touches[*number as usize].solid as usize];
+                if listed.iter().any(|number| solid_of(number).inverse_mass > 0.0) {
+                    continue;
+                }
                 window.save(&grid, &points.position, saved);
                 for _ in 0..PASSES {
                     grid.sweep::<L>(&mut points.position, &points.inverse_mass, window, &weave);
