@@ -83,10 +83,12 @@ fn what_is_round_is_exact_unless_facets_are_asked_for() {
 }
 
 #[test]
-fn beside_cloth_and_rope_rigid_bodies_are_trusses() {
-    for other in ["{cloth: {}}", "{rope: {}}"] {
-        let built = scene(&format!("{{rigid: {{}}}}, {other}")).build().unwrap();
-        assert_eq!(built.world.body(built.parts[0].body).unwrap().kind(), BodyKind::Truss, "{other}");
+fn rigid_bodies_are_trusses_under_the_papers_solver_only() {
+    for (solver, kind) in [(Solver::Default, BodyKind::Rigid), (Solver::Paper, BodyKind::Truss)] {
+        let mut scene = scene("{rigid: {}}, {cloth: {}}, {rope: {}}");
+        scene.settings.use_solver(solver);
+        let built = scene.build().unwrap();
+        assert_eq!(built.world.body(built.parts[0].body).unwrap().kind(), kind);
     }
 }
 
@@ -106,20 +108,19 @@ fn what_a_truss_does_not_know_is_refused_by_name() {
             "shape.height_field",
         ),
     ];
-    let reason = "only the solver \"default\" knows it, and only in scenes without cloth and rope";
+    let reason = "only the solver \"default\" knows it";
     for (text, field) in fields {
         let rigid = format!("{{rigid: {{{text}}}}}");
         assert_eq!(problems(&scene(&rigid)), [""; 0], "{text}");
         let mut for_paper = scene(&rigid);
         for_paper.settings.use_solver(Solver::Paper);
-        for refused in [for_paper, scene(&format!("{rigid}, {{rope: {{}}}}"))] {
-            assert_eq!(problems(&refused), [format!("bodies[0].rigid.{field}: {reason}")], "{text}");
-        }
+        assert_eq!(problems(&for_paper), [format!("bodies[0].rigid.{field}: {reason}")], "{text}");
     }
     for wall in ["half_space", "room"] {
         for field in ["restitution", "rolling_friction"] {
-            let refused = problems(&scene(&format!("{{{wall}: {{{field}: 0.5}}}}, {{cloth: {{}}}}")));
-            assert_eq!(refused, [format!("bodies[0].{wall}.{field}: {reason}")]);
+            let mut for_paper = scene(&format!("{{{wall}: {{{field}: 0.5}}}}, {{cloth: {{}}}}"));
+            for_paper.settings.use_solver(Solver::Paper);
+            assert_eq!(problems(&for_paper), [format!("bodies[0].{wall}.{field}: {reason}")]);
         }
     }
 }

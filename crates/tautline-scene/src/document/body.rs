@@ -156,11 +156,11 @@ pub struct HalfSpace {
     /// Coefficient of friction, 0 being none.
     pub friction: f32,
     /// Speed apart over speed together of a collision, 0 to 1; of two bodies the larger counts. Only for the solver
-    /// `default` without cloth and rope.
+    /// `default`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub restitution: Option<f32>,
     /// How far, in m, the normal force acts in front of the point of contact of what rolls on it; as that of a rigid
-    /// body. Only for the solver `default` without cloth and rope.
+    /// body. Only for the solver `default`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rolling_friction: Option<f32>,
     /// Colour; a grey if absent.
@@ -197,11 +197,11 @@ pub struct Room {
     /// Coefficient of friction, 0 being none.
     pub friction: f32,
     /// Speed apart over speed together of a collision, 0 to 1; of two bodies the larger counts. Only for the solver
-    /// `default` without cloth and rope.
+    /// `default`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub restitution: Option<f32>,
     /// How far, in m, the normal force acts in front of the point of contact of what rolls on it; as that of a rigid
-    /// body. Only for the solver `default` without cloth and rope.
+    /// body. Only for the solver `default`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rolling_friction: Option<f32>,
     /// Colour; a grey if absent.

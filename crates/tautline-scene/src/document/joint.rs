@@ -8,7 +8,7 @@ use super::value::BodyRef;
 /// What holds a rigid body to another one, or to the world. Points and directions are those of the world as the
 /// bodies stand at the start.
 ///
-/// Bodies of sticks have no joints: those are only for the solver `default`, in scenes without cloth and rope.
+/// Bodies of sticks have no joints: those are only for the solver `default`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Joint {

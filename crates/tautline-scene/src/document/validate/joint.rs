@@ -7,8 +7,7 @@ use crate::document::check::{
 };
 use crate::document::{Body, BodyRef, Joint, JointKind, Motion, Motor, Rigid, Scene, limits};
 
-const NOT_FOR_TRUSSES: &str = "bodies of sticks have no joints: set settings.solver to \"default\", and leave out cloth and \
-     rope, or leave out the joints";
+const NOT_FOR_TRUSSES: &str = "bodies of sticks have no joints: set settings.solver to \"default\"";
 
 pub(super) fn check_joints(c: &mut Checker, scene: &Scene) {
     let joints = &scene.joints;

@@ -21,8 +21,7 @@ use rigid::check_rigid;
 use shape::check_surface;
 
 /// What is said of a field that a truss does not know.
-const NOT_OF_TRUSSES: &str =
-    "only the solver \"default\" knows it, and only in scenes without cloth and rope";
+const NOT_OF_TRUSSES: &str = "only the solver \"default\" knows it";
 
 impl Scene {
     /// Refuses a document whose values a world could not be made of.

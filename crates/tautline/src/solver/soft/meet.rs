@@ -18,6 +18,9 @@ use glam::Vec3;
 const SMOOTH: f32 = 0.258_819_05;
 /// How far beyond the thickness pairs are listed, in thicknesses.
 const MARGIN: f32 = 0.5;
+/// What was too close is moved apart by this share of the distance in a small step, if that is more than else: cloth that
+/// has come through itself is not to stay there.
+const HURRY: f32 = 0.05;
 /// Motion until the next look is expected to be as much as that since the last, times this.
 const HASTE: f32 = 1.5;
 
@@ -313,7 +316,7 @@ fn part_pair(points: &mut Points, [a, b]: [usize; 2], (distance, recovery): (f32
     let braked = depth.min((-along).max(0.0));
     // What is deeper than it moved in is moved out without velocity.
     let apart = (normal * braked - across * friction) / free;
-    let out = normal * ((depth - braked).min(recovery) / free);
+    let out = normal * ((depth - braked).min(recovery.max(HURRY * distance)) / free);
     points.shift(a, -(apart * masses[0]));
     points.shift(b, apart * masses[1]);
     points.carry(a, -(out * masses[0]));
