@@ -124,6 +124,12 @@ impl<L: Lanes> Neg for Vec3x8<L> {
     }
 }
 
+/// What three rows have in a lane: all x, all y, all z.
+#[inline(always)]
+pub(crate) fn column([x, y, z]: &[Row; 3], lane: usize) -> Vec3 {
+    Vec3::new(x.0[lane], y.0[lane], z.0[lane])
+}
+
 /// The eight numbers from number `at` on; 0 where there are not as many.
 #[inline(always)]
 pub(crate) fn read<L: Lanes>(numbers: &[f32], at: usize) -> L {

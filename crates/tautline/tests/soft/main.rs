@@ -1,6 +1,7 @@
 //! Cloth and rope in small steps, seen from outside: what they lie on, what they carry, what they keep.
 
 mod bits;
+mod closed;
 mod motion;
 mod rest;
 mod ropes;
@@ -9,7 +10,7 @@ mod together;
 
 use std::sync::Arc;
 
-use tautline::{BodyHandle, DVec3, RigidBody, Shape, Vec3, World};
+use tautline::{BodyHandle, DVec3, RigidBody, Settings, Shape, Vec3, World};
 
 const DT: f32 = 1.0 / 60.0;
 
@@ -18,6 +19,10 @@ fn run(world: &mut World, seconds: f32) {
         let report = world.step(DT).unwrap();
         assert!(report.faults.is_empty(), "{:?}", report.faults);
     }
+}
+
+fn weightless() -> Settings {
+    Settings { gravity: Vec3::ZERO, sleep: None, ..Settings::default() }
 }
 
 fn solid(shape: Shape) -> RigidBody {

@@ -2,7 +2,7 @@
 
 use tautline::{Cloth, Grip, Rope, Settings, Vec3, World};
 
-use super::{center, positions, run};
+use super::{DT, center, positions, run, weightless};
 
 #[test]
 fn pinned_particles_stay_to_the_bit() {
@@ -47,4 +47,39 @@ fn a_grabbed_corner_follows_and_the_cloth_hangs_from_it() {
     world.release(grab).unwrap();
     run(&mut world, 0.5);
     assert!(positions(&world, cloth)[0].y < target.y - 1.0, "it falls when it is let go");
+}
+
+/// The integrator is exact for constant acceleration, whatever the steps.
+#[test]
+fn free_fall_is_a_parabola_also_when_steps_change() {
+    let mut world = World::new(Settings { sleep: None, ..Settings::default() }).unwrap();
+    let velocity = Vec3::new(1.0, 2.0, -0.5);
+    let cloth = world.add(Cloth::grid(9, 9, 1.0, 1.0).velocity(velocity)).unwrap();
+    let rope = Rope::straight(Vec3::new(3.0, 0.0, 0.0), Vec3::new(4.0, 0.0, 0.0), 10);
+    let rope = world.add(rope.velocity(velocity)).unwrap();
+    let starts = [positions(&world, cloth), positions(&world, rope)];
+    for k in 0..80 {
+        world.step([DT, DT / 2.0, DT / 7.0, DT * 1.3][k * k % 7 % 4]).unwrap();
+    }
+    let time = world.time() as f32;
+    let moved = velocity * time + Vec3::Y * (-4.905 * time * time);
+    for (body, starts) in [cloth, rope].into_iter().zip(starts) {
+        for (at, start) in positions(&world, body).into_iter().zip(starts) {
+            assert!(at.distance(start + moved) < 2e-5, "{} instead of {moved}", at - start);
+        }
+    }
+}
+
+/// The momentum of the whole is that of the force on one of its particles.
+#[test]
+fn a_force_on_one_particle_moves_all() {
+    let mut world = World::new(weightless()).unwrap();
+    let rope = world.add(Rope::straight(Vec3::ZERO, Vec3::X, 20).mass(0.5)).unwrap();
+    for _ in 0..60 {
+        world.apply_force_at(rope, 20, Vec3::new(0.3, 0.1, 0.0)).unwrap();
+        world.step(DT).unwrap();
+    }
+    let expected = Vec3::new(0.3, 0.1, 0.0) * world.time() as f32;
+    let momentum = world.momentum().as_vec3();
+    assert!(momentum.distance(expected) < 2e-3 * expected.length(), "{momentum} instead of {expected}");
 }

@@ -54,3 +54,43 @@ fn ropes_of_different_lengths_do_not_move_each_other() {
         assert!(moved < 1e-3, "a particle moved {moved} m");
     }
 }
+
+#[test]
+fn a_hung_rope_sags_as_the_discrete_catenary() {
+    let settings = Settings { damping: 2.0, sleep: None, ..Settings::default() };
+    let mut world = World::new(settings).unwrap();
+    let rope = world.add(Rope::straight(Vec3::NEG_X, Vec3::X, 50).length(3.0).pin_ends()).unwrap();
+    run(&mut world, 20.0);
+    let expected = sag(50, 3.0, 2.0);
+    assert!((expected - 1.005_525_6).abs() < 1e-6);
+    let found = -f64::from(positions(&world, rope)[25].y);
+    assert!((found - expected).abs() < 2e-4, "it sags by {found} m, not {expected}");
+    assert!(stretch(&world, rope) < 1e-3);
+}
+
+#[test]
+fn a_rope_that_hits_another_stays_on_its_side() {
+    let mut world = World::new(Settings::default()).unwrap();
+    let lower = Rope::straight(Vec3::new(-1.0, 1.0, 0.0), Vec3::new(1.0, 1.0, 0.0), 40).pin_ends();
+    let lower = world.add(lower).unwrap();
+    let upper = Rope::straight(Vec3::new(0.01, 1.3, -0.6), Vec3::new(0.01, 1.3, 0.6), 24).mass(0.2);
+    let upper = world.add(upper.velocity(Vec3::Y * -3.0)).unwrap();
+    run(&mut world, 1.0);
+    let middle = positions(&world, upper)[12];
+    let below = positions(&world, lower)[20];
+    assert!(middle.y > below.y && middle.y < below.y + 0.1, "{middle} on {below}");
+}
+
+/// The lowest node of a hung chain of `segments` (even) equal links, in m below its ends. Link k carries the horizontal
+/// tension H, by bisection from the span, and the vertical one (k − (n − 1)/2) m g.
+fn sag(segments: usize, length: f64, span: f64) -> f64 {
+    let link = length / segments as f64;
+    let vertical = |k: usize| k as f64 - (segments as f64 - 1.0) / 2.0;
+    let width = |h: f64| (0..segments).map(|k| link * h / h.hypot(vertical(k))).sum::<f64>();
+    let (mut low, mut high) = (0.0, 1e6);
+    for _ in 0..200 {
+        let middle = (low + high) / 2.0;
+        if width(middle) < span { low = middle } else { high = middle }
+    }
+    (0..segments / 2).map(|k| -link * vertical(k) / low.hypot(vertical(k))).sum()
+}

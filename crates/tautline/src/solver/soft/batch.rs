@@ -2,7 +2,7 @@
 
 use super::points::Points;
 use super::stick::{Span, Spans, pull};
-use crate::simd::{LANES, Lanes, Row, Vec3x8};
+use crate::simd::{LANES, Lanes, Row, Vec3x8, column};
 
 /// Eight sticks: where they begin and end, and their spans. What is missing in the last has no mass on either side.
 #[derive(Debug, Clone)]
@@ -80,10 +80,8 @@ impl Batch {
         (pull * second).store(&mut shifts[1]);
         for lane in 0..self.count {
             let (a, b) = (self.ends[0][lane] as usize, self.ends[1][lane] as usize);
-            for (axis, numbers) in points.position.iter_mut().enumerate() {
-                numbers[a] += shifts[0][axis].0[lane];
-                numbers[b] -= shifts[1][axis].0[lane];
-            }
+            points.shift(a, column(&shifts[0], lane));
+            points.shift(b, -column(&shifts[1], lane));
         }
     }
 }

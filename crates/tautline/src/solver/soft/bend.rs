@@ -5,7 +5,7 @@
 //! takes no square root, is 0 in flat and stretched sheets alike, and turning or shifting all changes nothing in |C|, so
 //! that momentum and angular momentum are kept. For a strip of width b and flexural rigidity B, k = B b/e.
 
-use super::points::{Coordinates, Eights, eights};
+use super::points::{Moving, MovingEights, eights};
 use crate::simd::{LANES, Lanes};
 
 /// Lines of particles side by side, as `Threads`.
@@ -22,15 +22,15 @@ pub(super) struct Lines {
 impl Lines {
     /// Bends every line at every inner knot once; of three knots that follow each other, each in its own colour.
     #[inline(always)]
-    pub(super) fn straighten<L: Lanes>(&self, positions: &mut Coordinates, masses: &[f32]) {
-        let (mut positions, masses) = (Eights::of(positions), eights(masses));
+    pub(super) fn straighten<L: Lanes>(&self, moving: &mut Moving<'_>, masses: &[f32]) {
+        let (mut knots, masses) = (moving.eights(), eights(masses));
         let (start, stride, count) = (self.start / LANES, self.stride / LANES, self.count / LANES);
         for colour in 0..3 {
             for knot in (1 + colour..self.knots.saturating_sub(1)).step_by(3) {
                 let first = start + knot * stride;
                 for eight in first..first + count {
                     let places = [eight - stride, eight, eight + stride];
-                    straighten_eight::<L>(&mut positions, masses, places, L::splat(self.compliance));
+                    straighten_eight::<L>(&mut knots, masses, places, L::splat(self.compliance));
                 }
             }
         }
@@ -41,20 +41,20 @@ impl Lines {
 /// projection where it would not be. The usual sum of both makes what is stiff softer than it is asked to be.
 #[inline(always)]
 fn straighten_eight<L: Lanes>(
-    positions: &mut Eights<'_>,
+    knots: &mut MovingEights<'_>,
     masses: &[[f32; LANES]],
     [a, b, c]: [usize; 3],
     compliance: L,
 ) {
     let masses = [L::read(&masses[a]), L::read(&masses[b]), L::read(&masses[c])];
-    let (at_a, at_b, at_c) = (positions.read::<L>(a), positions.read(b), positions.read(c));
+    let (at_a, at_b, at_c) = (knots.read::<L>(a), knots.read(b), knots.read(c));
     let bend = at_a + at_c - (at_b + at_b);
     let mobility = masses[0] + masses[1] * L::splat(4.0) + masses[2];
     let is_whole = mobility.greater(L::splat(0.0));
     let multiplier = -(bend * is_whole.and(L::splat(1.0) / mobility.max(compliance)));
-    positions.write(a, at_a + multiplier * masses[0]);
-    positions.write(b, at_b + multiplier * (masses[1] * L::splat(-2.0)));
-    positions.write(c, at_c + multiplier * masses[2]);
+    knots.shift(a, at_a, multiplier * masses[0]);
+    knots.shift(b, at_b, multiplier * (masses[1] * L::splat(-2.0)));
+    knots.shift(c, at_c, multiplier * masses[2]);
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use super::points::Coordinates;
+use super::points::Moving;
 use super::stick::{Span, Spans, relax_run};
 use crate::simd::{LANES, Lanes};
 
@@ -57,7 +57,7 @@ impl Grid {
     #[inline(always)]
     pub(super) fn sweep<L: Lanes>(
         &self,
-        positions: &mut Coordinates,
+        moving: &mut Moving<'_>,
         masses: &[f32],
         window: &Window,
         weave: &Weave,
@@ -72,21 +72,21 @@ impl Grid {
         let Range { start: top, end: bottom } = window.rows.clone();
         for row in window.rows.clone() {
             let place = first + row * stride;
-            relax_run(positions, masses, (place, place + half, from_even), along);
-            relax_run(positions, masses, (place + half, place + 1, from_odd), along);
+            relax_run(moving, masses, (place, place + half, from_even), along);
+            relax_run(moving, masses, (place + half, place + 1, from_odd), along);
         }
         for parity in 0..2 {
             for row in (top + parity..bottom - 1).step_by(2) {
                 let place = first + row * stride;
-                relax_run(positions, masses, (place, place + stride, even), down);
-                relax_run(positions, masses, (place + half, place + half + stride, odd), down);
+                relax_run(moving, masses, (place, place + stride, even), down);
+                relax_run(moving, masses, (place + half, place + half + stride, odd), down);
             }
         }
         for parity in 0..2 {
             for row in (top + parity..bottom - 1).step_by(2) {
                 let place = first + row * stride;
-                relax_run(positions, masses, (place, place + stride + half, from_even), across);
-                relax_run(positions, masses, (place + half, place + stride + 1, from_odd), across);
+                relax_run(moving, masses, (place, place + stride + half, from_even), across);
+                relax_run(moving, masses, (place + half, place + stride + 1, from_odd), across);
             }
         }
     }

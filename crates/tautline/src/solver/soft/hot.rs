@@ -125,11 +125,11 @@ impl Window {
     /// Takes a share of how its particles have moved since then out of their velocity.
     pub(super) fn still(&self, grid: &Grid, points: &mut Points, saved: &Coordinates) {
         for (axis, saved) in saved.iter().enumerate() {
-            let (positions, predicted) = (&points.position[axis], &mut points.predicted[axis]);
+            let (positions, displacements) = (&points.position[axis], &mut points.displacement[axis]);
             let mut before = saved.iter();
             for place in self.runs(grid).flatten() {
                 let Some(before) = before.next() else { break };
-                predicted[place] += STILL * (positions[place] - before);
+                displacements[place] -= STILL * (positions[place] - before);
             }
         }
     }

@@ -134,7 +134,6 @@ impl SoftSolver {
                 self.led.push((place, displacement));
             }
             set(&mut self.points.position, place, particles.position[i]);
-            set(&mut self.points.predicted, place, particles.position[i]);
             set(&mut self.points.displacement, place, displacement);
             self.points.inverse_mass[place] = mass;
         }
@@ -243,7 +242,7 @@ impl SoftSolver {
             let body = &mut bodies[piece.body];
             let moved = |number: usize| {
                 let place = piece.place(number);
-                (get(&self.points.position, place), self.points.motion(place))
+                (self.points.at(place), self.points.motion(place))
             };
             let is_lost = |&number: &usize| {
                 let (position, displacement) = moved(number);

@@ -10,16 +10,14 @@ pub(super) type Coordinates = [Vec<f32>; 3];
 
 /// Particles by place. Where a place is of no particle, it weighs nothing (inverse mass 0) and is far from all others.
 ///
-/// The Verlet pair is kept as in the store, a position and a displacement, not as two positions. What constraints do to
-/// positions is found by comparison with where the integrator had put them, and so what nothing touches is never
-/// rounded to the grid of its coordinates.
+/// The Verlet pair is kept as in the store, a position and a displacement, and whatever moves a particle changes both
+/// alike. Were motion found by comparing positions, it would be rounded to their grid in every small step, and impulses
+/// that are opposite would not be equal.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Points {
     /// x, in m.
     pub(super) position: Coordinates,
-    /// x as the integrator left it, in m.
-    pub(super) predicted: Coordinates,
-    /// The motion over a small step, in m, as the integrator left it.
+    /// d = x − x⁻, in m: the motion over a small step.
     pub(super) displacement: Coordinates,
     /// What forces add to the displacement in a small step, in m; as long as the others only if there are any.
     pub(super) kick: Coordinates,
@@ -36,15 +34,13 @@ impl Points {
     /// Forgets all, and makes room for so many places; a multiple of eight, and eight more that only reading needs.
     pub(super) fn reset(&mut self, places: usize) {
         let length = places.next_multiple_of(LANES) + LANES;
-        for numbers in [&mut self.position, &mut self.predicted, &mut self.displacement].into_iter().flatten()
-        {
+        for numbers in [&mut self.position, &mut self.displacement].into_iter().flatten() {
             numbers.clear();
             numbers.resize(length, 0.0);
         }
         for (place, x) in self.position[0].iter_mut().enumerate() {
             *x = NOWHERE * (1.0 + place as f32 / 1024.0);
         }
-        self.predicted[0].clone_from(&self.position[0]);
         self.kick.iter_mut().for_each(Vec::clear);
         for numbers in [&mut self.inverse_mass, &mut self.presence] {
             numbers.clear();
@@ -57,10 +53,18 @@ impl Points {
         get(&self.position, place)
     }
 
-    /// Moves a particle by `shift` (m).
+    /// What kernels move, and the inverse masses of the particles.
+    #[inline(always)]
+    pub(super) fn moving(&mut self) -> (Moving<'_>, &[f32]) {
+        let Self { position, displacement, inverse_mass, .. } = self;
+        (Moving { position, displacement }, inverse_mass)
+    }
+
+    /// Moves a particle by `shift` (m), which becomes velocity.
     #[inline(always)]
     pub(super) fn shift(&mut self, place: usize, shift: Vec3) {
-        for (numbers, by) in self.position.iter_mut().zip(shift.to_array()) {
+        self.carry(place, shift);
+        for (numbers, by) in self.displacement.iter_mut().zip(shift.to_array()) {
             numbers[place] += by;
         }
     }
@@ -68,53 +72,39 @@ impl Points {
     /// Moves a particle by `shift` (m) without giving it velocity.
     #[inline(always)]
     pub(super) fn carry(&mut self, place: usize, shift: Vec3) {
-        for numbers in [&mut self.position, &mut self.predicted] {
-            for (numbers, by) in numbers.iter_mut().zip(shift.to_array()) {
-                numbers[place] += by;
-            }
+        for (numbers, by) in self.position.iter_mut().zip(shift.to_array()) {
+            numbers[place] += by;
         }
     }
 
     /// Moves a held particle on by `motion` (m).
     pub(super) fn lead(&mut self, place: usize, motion: Vec3) {
-        let to = self.at(place) + motion;
-        set(&mut self.position, place, to);
-        set(&mut self.predicted, place, to);
+        self.carry(place, motion);
         set(&mut self.displacement, place, motion);
     }
 
     /// How far a particle has moved in this small step, in m.
     #[inline(always)]
     pub(super) fn motion(&self, place: usize) -> Vec3 {
-        get(&self.displacement, place) + (self.at(place) - get(&self.predicted, place))
+        get(&self.displacement, place)
     }
 
-    /// As [`Points::motion`], of eight.
-    #[inline(always)]
-    pub(super) fn motions<L: Lanes>(&self, place: usize) -> Vec3x8<L> {
-        let moved = Vec3x8::<L>::read(&self.position, place) - Vec3x8::read(&self.predicted, place);
-        Vec3x8::read(&self.displacement, place) + moved
-    }
-
-    /// Ends the last small step and begins the next one (paper, Eq 1): what constraints did becomes motion, gravity is
-    /// added, and all moves on, each particle by `limit` (m) at most. Returns how far the fastest goes, in m.
+    /// Begins a small step (paper, Eq 1): gravity is added, and all moves on, each particle by `limit` (m) at most. Returns how far the fastest goes, in m.
     #[inline(always)]
     pub(super) fn integrate<L: Lanes>(&mut self, places: std::ops::Range<usize>, step: SmallStep) -> f32 {
         let fall = Vec3x8::<L>::splat(step.fall);
         let (keep, limit, tiny) = (L::splat(step.keep), L::splat(step.limit), L::splat(1e-30));
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
-        let Self { position, predicted, displacement, kick, inverse_mass, .. } = self;
-        let (mut positions, mut starts) = (Eights::of(position), Eights::of(predicted));
-        let (mut displacements, kicks) = (Eights::of(displacement), Eights::of(kick));
+        let Self { position, displacement, kick, inverse_mass, .. } = self;
+        let (mut positions, mut displacements) = (Eights::of(position), Eights::of(displacement));
+        let kicks = Eights::of(kick);
         let (masses, is_kicked) = (eights(inverse_mass), !kicks.0[0].is_empty());
         let (share, per_lively) = (L::splat(step.calming.share), L::splat(1.0 / step.calming.lively));
         let mut fastest = zero;
         let masses = &masses[..places.end / LANES];
         for (eight, mass) in masses.iter().enumerate().skip(places.start / LANES) {
             let is_free = L::read(mass).greater(zero);
-            let at = positions.read::<L>(eight);
-            let moved = displacements.read(eight) + (at - starts.read(eight));
-            let mut motion = moved * keep + fall;
+            let mut motion = displacements.read::<L>(eight) * keep + fall;
             if is_kicked {
                 motion = motion + kicks.read(eight);
             }
@@ -123,8 +113,7 @@ impl Points {
             motion = motion * is_free.and((limit / length).min(one - lost));
             fastest = fastest.max(is_free.and(length.min(limit)));
             displacements.write(eight, motion);
-            positions.write(eight, at + motion);
-            starts.write(eight, at + motion);
+            positions.write(eight, positions.read(eight) + motion);
         }
         fastest.largest()
     }
@@ -146,6 +135,76 @@ pub(super) struct SmallStep {
     /// The longest a displacement may be, in m.
     pub(super) limit: f32,
     pub(super) calming: Calming,
+}
+
+/// Positions and displacements that a kernel moves.
+pub(super) struct Moving<'a> {
+    pub(super) position: &'a mut Coordinates,
+    pub(super) displacement: &'a mut Coordinates,
+}
+
+impl Moving<'_> {
+    /// Moves the eight particles from `place` on.
+    #[inline(always)]
+    pub(super) fn shift<L: Lanes>(&mut self, place: usize, by: Vec3x8<L>) {
+        for numbers in [&mut *self.position, &mut *self.displacement] {
+            (Vec3x8::read(numbers, place) + by).write(numbers, place);
+        }
+    }
+
+    /// In groups of eight from the first place on.
+    #[inline(always)]
+    pub(super) fn eights(&mut self) -> MovingEights<'_> {
+        MovingEights { at: Eights::of(self.position), moved: Eights::of(self.displacement) }
+    }
+
+    /// Those of two runs of `length` places, from `a` and from `b` on, which do not overlap.
+    #[inline(always)]
+    pub(super) fn two_runs(&mut self, a: usize, b: usize, length: usize) -> [MovingEights<'_>; 2] {
+        let [at_a, at_b] = two_runs(self.position, a, b, length);
+        let [moved_a, moved_b] = two_runs(self.displacement, a, b, length);
+        [MovingEights { at: at_a, moved: moved_a }, MovingEights { at: at_b, moved: moved_b }]
+    }
+}
+
+/// Positions and displacements in groups of eight places.
+pub(super) struct MovingEights<'a> {
+    at: Eights<'a>,
+    moved: Eights<'a>,
+}
+
+impl MovingEights<'_> {
+    /// The positions of the eight of this number.
+    #[inline(always)]
+    pub(super) fn read<L: Lanes>(&self, eight: usize) -> Vec3x8<L> {
+        self.at.read(eight)
+    }
+
+    /// Moves them by `by` from `at`, where they are.
+    #[inline(always)]
+    pub(super) fn shift<L: Lanes>(&mut self, eight: usize, at: Vec3x8<L>, by: Vec3x8<L>) {
+        self.at.write(eight, at + by);
+        self.moved.write(eight, self.moved.read(eight) + by);
+    }
+}
+
+#[inline(always)]
+fn two_runs(numbers: &mut Coordinates, a: usize, b: usize, length: usize) -> [Eights<'_>; 2] {
+    let [x, y, z] = numbers;
+    let ([xa, xb], [ya, yb], [za, zb]) =
+        (split(x, a, b, length), split(y, a, b, length), split(z, a, b, length));
+    let count = length / LANES;
+    let first = Eights([&mut xa[..count], &mut ya[..count], &mut za[..count]]);
+    [first, Eights([&mut xb[..count], &mut yb[..count], &mut zb[..count]])]
+}
+
+#[inline(always)]
+fn split(numbers: &mut [f32], a: usize, b: usize, length: usize) -> [&mut [[f32; LANES]]; 2] {
+    let (low, high) = if a < b { (a, b) } else { (b, a) };
+    let (head, tail) = numbers.split_at_mut(high);
+    let first = head[low..low + length].as_chunks_mut().0;
+    let second = tail[..length].as_chunks_mut().0;
+    if a < b { [first, second] } else { [second, first] }
 }
 
 /// Coordinates in groups of eight places: what is read and written so needs one comparison, and no more looking up of
@@ -193,12 +252,6 @@ pub(super) fn set(numbers: &mut Coordinates, place: usize, value: Vec3) {
     for (numbers, number) in numbers.iter_mut().zip(value.to_array()) {
         numbers[place] = number;
     }
-}
-
-/// Adds to eight positions.
-#[inline(always)]
-pub(super) fn add<L: Lanes>(positions: &mut Coordinates, place: usize, shift: Vec3x8<L>) {
-    (Vec3x8::read(positions, place) + shift).write(positions, place);
 }
 
 /// A mask of the first `count` lanes.

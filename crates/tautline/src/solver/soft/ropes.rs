@@ -1,6 +1,6 @@
 //! Ropes, up to eight side by side: solved as threads, then swept.
 
-use super::points::{Coordinates, Points, get, set};
+use super::points::{Coordinates, Moving, Points, get, set};
 use super::stick::{Span, SpanAt, Spans, relax_spans};
 use super::thread::{Pivot, REGULARISATION, Threads};
 use crate::simd::{LANES, Lanes, Row};
@@ -19,7 +19,8 @@ pub(super) struct Bundle {
     knots: usize,
     spans: Vec<[Row; 3]>,
     mean_inverse_mass: f32,
-    positions: Coordinates,
+    position: Coordinates,
+    displacement: Coordinates,
     masses: Vec<f32>,
 }
 
@@ -35,19 +36,19 @@ impl Bundle {
             }
         }
         let length = (knots + 1) * LANES;
-        let mut positions = Coordinates::default();
-        for (axis, numbers) in positions.iter_mut().enumerate() {
-            // What is no knot is apart from its neighbours.
-            *numbers = (0..length).map(|place| if axis == 0 { place as f32 } else { 0.0 }).collect();
-        }
-        Self { ropes, knots, spans, mean_inverse_mass, positions, masses: vec![0.0; length] }
+        let zeros = || vec![0.0; length];
+        // What is no knot is apart from its neighbours.
+        let position = [(0..length).map(|place| place as f32).collect(), zeros(), zeros()];
+        let displacement = [zeros(), zeros(), zeros()];
+        Self { ropes, knots, spans, mean_inverse_mass, position, displacement, masses: zeros() }
     }
 
     /// Solves all sticks of each rope together, and sweeps once over them.
     #[inline(always)]
     pub(super) fn solve<L: Lanes>(&mut self, points: &mut Points, pivots: &mut Vec<Pivot<L>>) {
         self.read(points);
-        let Self { knots, spans, positions, masses, .. } = self;
+        let Self { knots, spans, position, displacement, masses, .. } = self;
+        let mut moving = Moving { position, displacement };
         let threads = Threads {
             start: 0,
             stride: LANES,
@@ -56,10 +57,10 @@ impl Bundle {
             spans: &spans[..],
             regularisation: REGULARISATION * self.mean_inverse_mass,
         };
-        threads.solve(positions, masses, pivots);
+        threads.solve(&mut moving, masses, pivots);
         for stick in 0..*knots - 1 {
             let of_stick: Spans<L> = (&spans[..]).span(stick);
-            relax_spans(positions, masses, [stick * LANES, (stick + 1) * LANES], of_stick);
+            relax_spans(&mut moving, masses, [stick * LANES, (stick + 1) * LANES], of_stick);
         }
         self.write(points);
     }
@@ -68,7 +69,8 @@ impl Bundle {
         for (lane, rope) in self.ropes.iter().enumerate() {
             for knot in 0..=rope.spans.len() {
                 let (from, to) = (rope.start + knot, knot * LANES + lane);
-                set(&mut self.positions, to, points.at(from));
+                set(&mut self.position, to, points.at(from));
+                set(&mut self.displacement, to, points.motion(from));
                 self.masses[to] = points.inverse_mass[from];
             }
         }
@@ -77,7 +79,9 @@ impl Bundle {
     fn write(&self, points: &mut Points) {
         for (lane, rope) in self.ropes.iter().enumerate() {
             for knot in 0..=rope.spans.len() {
-                set(&mut points.position, rope.start + knot, get(&self.positions, knot * LANES + lane));
+                let (from, to) = (knot * LANES + lane, rope.start + knot);
+                set(&mut points.position, to, get(&self.position, from));
+                set(&mut points.displacement, to, get(&self.displacement, from));
             }
         }
     }

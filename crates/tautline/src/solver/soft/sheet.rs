@@ -3,7 +3,7 @@
 use super::bend::Lines;
 use super::grid::{Grid, Weave};
 use super::hot::Windows;
-use super::points::{Coordinates, Points, eights};
+use super::points::{Coordinates, Moving, Points, eights};
 use super::stick::Span;
 use super::thread::{Pivot, REGULARISATION, Threads};
 use crate::simd::{LANES, Lanes};
@@ -24,7 +24,8 @@ pub(super) struct Sheet {
 /// Rows as columns, to be solved side by side.
 #[derive(Debug, Clone, Default)]
 struct Turned {
-    positions: Coordinates,
+    position: Coordinates,
+    displacement: Coordinates,
     masses: Vec<f32>,
 }
 
@@ -56,27 +57,16 @@ impl Sheet {
             return;
         }
         if is_even {
-            let (stride, span) = (self.grid.stride(), self.weave[1]);
-            let shape = (start, stride, rows, stride);
-            self.solve(
-                &mut points.position,
-                &points.inverse_mass,
-                shape,
-                (is_held.then_some(span), bending),
-                pivots,
-            );
+            let (stride, span) = (self.grid.stride(), is_held.then_some(self.weave[1]));
+            let (mut moving, masses) = points.moving();
+            self.solve(&mut moving, masses, (start, stride, rows, stride), (span, bending), pivots);
         } else {
-            let stride = rows.next_multiple_of(LANES);
+            let (stride, span) = (rows.next_multiple_of(LANES), is_held.then_some(self.weave[0]));
             let mut turned = std::mem::take(&mut self.turned);
             turned.read::<L>(&self.grid, points, stride);
-            let shape = (0, stride, columns, stride);
-            self.solve(
-                &mut turned.positions,
-                &turned.masses,
-                shape,
-                (is_held.then_some(self.weave[0]), bending),
-                pivots,
-            );
+            let Turned { position, displacement, masses } = &mut turned;
+            let mut moving = Moving { position, displacement };
+            self.solve(&mut moving, masses, (0, stride, columns, stride), (span, bending), pivots);
             turned.write::<L>(&self.grid, points, stride);
             self.turned = turned;
         }
@@ -85,7 +75,7 @@ impl Sheet {
     #[inline(always)]
     fn solve<L: Lanes>(
         &self,
-        positions: &mut Coordinates,
+        moving: &mut Moving<'_>,
         masses: &[f32],
         (start, stride, knots, count): (usize, usize, usize, usize),
         (spans, bending): (Option<Span>, Option<f32>),
@@ -93,10 +83,10 @@ impl Sheet {
     ) {
         if let Some(spans) = spans {
             let regularisation = REGULARISATION * self.mean_inverse_mass;
-            Threads { start, stride, knots, count, spans, regularisation }.solve(positions, masses, pivots);
+            Threads { start, stride, knots, count, spans, regularisation }.solve(moving, masses, pivots);
         }
         if let Some(compliance) = bending {
-            Lines { start, stride, knots, count, compliance }.straighten::<L>(positions, masses);
+            Lines { start, stride, knots, count, compliance }.straighten::<L>(moving, masses);
         }
     }
 }
@@ -106,9 +96,10 @@ impl Turned {
     #[inline(always)]
     fn read<L: Lanes>(&mut self, grid: &Grid, points: &Points, stride: usize) {
         let length = grid.stride() * stride;
-        for axis in 0..3 {
-            self.positions[axis].resize(length, 0.0);
-            turn::<L>(grid, &points.position[axis], &mut self.positions[axis], stride);
+        let copies = self.position.iter_mut().chain(&mut self.displacement);
+        for (copy, numbers) in copies.zip(points.position.iter().chain(&points.displacement)) {
+            copy.resize(length, 0.0);
+            turn::<L>(grid, numbers, copy, stride);
         }
         self.masses.resize(length, 0.0);
         turn::<L>(grid, &points.inverse_mass, &mut self.masses, stride);
@@ -116,8 +107,9 @@ impl Turned {
 
     #[inline(always)]
     fn write<L: Lanes>(&self, grid: &Grid, points: &mut Points, stride: usize) {
-        for axis in 0..3 {
-            turn_back::<L>(grid, &self.positions[axis], &mut points.position[axis], stride);
+        let numbers = points.position.iter_mut().chain(&mut points.displacement);
+        for (copy, numbers) in self.position.iter().chain(&self.displacement).zip(numbers) {
+            turn_back::<L>(grid, copy, numbers, stride);
         }
     }
 }

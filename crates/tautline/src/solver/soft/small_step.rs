@@ -38,6 +38,12 @@ pub(super) struct Timing {
     pub(super) instructions: Instructions,
 }
 
+impl Timing {
+    fn push(&self) -> Push {
+        Push { recovery: self.recovery * self.small, lightness: LIGHTNESS }
+    }
+}
+
 impl SoftSolver {
     /// All small steps of a substep.
     pub(super) fn make_small_steps(&mut self, solids: &mut [Solid<'_>], bodies: &[Body], timing: &Timing) {
@@ -145,7 +151,7 @@ impl Kernel for Relax<'_> {
                 Layout::Sheet(sheet) => {
                     sheet.pull_threads(points, is_held, done.is_multiple_of(2), &mut pivots);
                     let whole = sheet.grid.whole();
-                    sheet.grid.sweep::<L>(&mut points.position, lightened, &whole, &sheet.weave);
+                    sheet.grid.sweep::<L>(&mut points.moving().0, lightened, &whole, &sheet.weave);
                 }
                 Layout::Loose(batches) => batches.sweep::<L>(points, lightened),
                 Layout::Rope => {}
@@ -251,7 +257,7 @@ impl Kernel for SweepWindows<'_, '_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
         let SoftSolver { points, pieces, lightened, touches, done, saved, .. } = self.solver;
-        let push = Push { recovery: self.timing.recovery * self.timing.small, lightness: 1.0 };
+        let push = self.timing.push();
         for piece in pieces {
             let Layout::Sheet(sheet) = &mut piece.layout else { continue };
             let (grid, weave) = (sheet.grid, sheet.weave);
@@ -263,22 +269,19 @@ impl Kernel for SweepWindows<'_, '_> {
             }
             let windows = sheet.windows.windows.iter().zip(&sheet.windows.touches);
             for (window, listed) in windows.filter(|(_, listed)| !listed.is_empty()) {
-                // What moves in turn is pushed once in a small step: all that it gets is to be in the velocity of what pushes.
+                // What moves in turn is pushed once in a small step: what it gets is to be in the velocity of what pushes.
                 let solid_of = |number: &u32| &self.solids[touches[*number as usize].solid as usize];
                 if listed.iter().any(|number| solid_of(number).inverse_mass > 0.0) {
                     continue;
                 }
                 window.save(&grid, &points.position, saved);
                 for _ in 0..PASSES {
-                    grid.sweep::<L>(&mut points.position, &points.inverse_mass, window, &weave);
+                    let (mut moving, masses) = points.moving();
+                    grid.sweep::<L>(&mut moving, masses, window, &weave);
                     for &number in listed {
                         let touch = &mut touches[number as usize];
-                        touch.solve_again::<L>(
-                            points,
-                            lightened,
-                            &mut self.solids[touch.solid as usize],
-                            push,
-                        );
+                        let solid = &mut self.solids[touch.solid as usize];
+                        touch.solve_again::<L>(points, lightened, solid, push);
                     }
                 }
                 window.still(&grid, points, saved);
@@ -308,7 +311,7 @@ impl Kernel for PushOut<'_, '_> {
     fn run<L: Lanes>(self) {
         let SoftSolver { points, pieces, lightened, touches, .. } = self.solver;
         lightened.copy_from_slice(&points.inverse_mass);
-        let push = Push { recovery: self.timing.recovery * self.timing.small, lightness: LIGHTNESS };
+        let push = self.timing.push();
         for touch in touches {
             let solid = &mut self.solids[touch.solid as usize];
             if touch.solve::<L>(points, lightened, solid, push) {

@@ -1,6 +1,6 @@
 //! Eight sticks at a time.
 
-use super::points::{Coordinates, add, first};
+use super::points::{Moving, eights, first};
 use crate::simd::{LANES, Lanes, Row, Vec3x8, read};
 
 /// What lengths a stick may have, and how it gives.
@@ -65,66 +65,44 @@ pub(super) fn pull<L: Lanes>(between: Vec3x8<L>, masses: [L; 2], spans: Spans<L>
 /// Relaxes `count` sticks: number k is from place `a + k` to `b + k`, and no place is in two of them.
 #[inline(always)]
 pub(super) fn relax_run<L: Lanes>(
-    positions: &mut Coordinates,
+    moving: &mut Moving<'_>,
     masses: &[f32],
     (a, b, count): (usize, usize, usize),
     spans: Spans<L>,
 ) {
     let full = count - count % LANES;
-    let [x, y, z] = positions;
-    let (xs, ys, zs) = (two_runs(x, a, b, full), two_runs(y, a, b, full), two_runs(z, a, b, full));
-    let masses_a = masses[a..a + full].as_chunks::<LANES>().0;
-    let masses_b = masses[b..b + full].as_chunks::<LANES>().0;
-    let places = xs.0.iter_mut().zip(xs.1).zip(ys.0.iter_mut().zip(ys.1)).zip(zs.0.iter_mut().zip(zs.1));
-    for ((((xa, xb), (ya, yb)), (za, zb)), (wa, wb)) in places.zip(masses_a.iter().zip(masses_b)) {
-        let at_a = Vec3x8::new(L::read(xa), L::read(ya), L::read(za));
-        let at_b = Vec3x8::new(L::read(xb), L::read(yb), L::read(zb));
-        let masses = [L::read(wa), L::read(wb)];
+    let (masses_a, masses_b) = (eights(&masses[a..a + full]), eights(&masses[b..b + full]));
+    let [mut from, mut to] = moving.two_runs(a, b, full);
+    for (eight, (wa, wb)) in masses_a.iter().zip(masses_b).enumerate() {
+        let (at_a, at_b, masses) = (from.read(eight), to.read(eight), [L::read(wa), L::read(wb)]);
         let pull = pull(at_b - at_a, masses, spans);
-        let (moved_a, moved_b) = (at_a + pull * masses[0], at_b - pull * masses[1]);
-        moved_a.x.write(xa);
-        moved_a.y.write(ya);
-        moved_a.z.write(za);
-        moved_b.x.write(xb);
-        moved_b.y.write(yb);
-        moved_b.z.write(zb);
+        from.shift(eight, at_a, pull * masses[0]);
+        to.shift(eight, at_b, -(pull * masses[1]));
     }
     if full < count {
         let mask = first::<L>(count - full);
         let (a, b) = (a + full, b + full);
-        let masses = [mask.and(read(masses, a)), mask.and(read(masses, b))];
-        let between = Vec3x8::read(positions, b) - Vec3x8::read(positions, a);
-        let pull = pull(between, masses, spans);
-        add(positions, a, pull * masses[0]);
-        add(positions, b, -(pull * masses[1]));
+        relax([a, b], moving, [mask.and(read(masses, a)), mask.and(read(masses, b))], spans);
     }
 }
-
-/// Two runs of `length` numbers, from `a` and from `b` on, in groups of eight. They do not overlap.
-#[inline(always)]
-fn two_runs(numbers: &mut [f32], a: usize, b: usize, length: usize) -> (Eights<'_>, Eights<'_>) {
-    let (low, high) = if a < b { (a, b) } else { (b, a) };
-    let (head, tail) = numbers.split_at_mut(high);
-    let first = head[low..low + length].as_chunks_mut::<LANES>().0;
-    let second = tail[..length].as_chunks_mut::<LANES>().0;
-    if a < b { (first, second) } else { (second, first) }
-}
-
-type Eights<'a> = &'a mut [[f32; LANES]];
 
 /// Relaxes the eight sticks from the places `a` on to those from `b` on.
 #[inline(always)]
 pub(super) fn relax_spans<L: Lanes>(
-    positions: &mut Coordinates,
+    moving: &mut Moving<'_>,
     masses: &[f32],
     [a, b]: [usize; 2],
     spans: Spans<L>,
 ) {
-    let (at_a, at_b) = (Vec3x8::read(positions, a), Vec3x8::read(positions, b));
-    let masses = [read::<L>(masses, a), read(masses, b)];
-    let pull = pull(at_b - at_a, masses, spans);
-    (at_a + pull * masses[0]).write(positions, a);
-    (at_b - pull * masses[1]).write(positions, b);
+    relax([a, b], moving, [read(masses, a), read(masses, b)], spans);
+}
+
+#[inline(always)]
+fn relax<L: Lanes>([a, b]: [usize; 2], moving: &mut Moving<'_>, masses: [L; 2], spans: Spans<L>) {
+    let between = Vec3x8::read(moving.position, b) - Vec3x8::read(moving.position, a);
+    let pull = pull(between, masses, spans);
+    moving.shift(a, pull * masses[0]);
+    moving.shift(b, -(pull * masses[1]));
 }
 
 #[cfg(test)]

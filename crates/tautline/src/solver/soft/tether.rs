@@ -84,8 +84,8 @@ impl Tethers {
             let is_free = read::<L>(&points.inverse_mass, place).greater(L::splat(0.0));
             let is_taut = length.greater(most).and(is_free);
             if is_taut.bits() != 0 {
-                let drawn = held + away * (most / length);
-                Vec3x8::select(is_taut, drawn, at).write(&mut points.position, place);
+                let share = is_taut.and(most / length - L::splat(1.0));
+                points.moving().0.shift(place, away * share);
             }
         }
     }

@@ -6,7 +6,7 @@
 //! and one up. The regularisation ε, a share of a particle's inverse mass, keeps folds from being pulled straight at
 //! once; it lets threads give, so that a sweep over the sticks has to follow.
 
-use super::points::{Coordinates, Eights, eights};
+use super::points::{Moving, MovingEights, eights};
 use super::stick::SpanAt;
 use crate::simd::{LANES, Lanes, Vec3x8};
 
@@ -39,25 +39,21 @@ pub(super) struct Pivot<L> {
 impl<S> Threads<S> {
     /// Solves all threads. `pivots` is memory.
     #[inline(always)]
-    pub(super) fn solve<L: Lanes>(
-        &self,
-        positions: &mut Coordinates,
-        masses: &[f32],
-        pivots: &mut Vec<Pivot<L>>,
-    ) where
+    pub(super) fn solve<L: Lanes>(&self, moving: &mut Moving<'_>, masses: &[f32], pivots: &mut Vec<Pivot<L>>)
+    where
         S: SpanAt<L>,
     {
-        let (mut positions, masses) = (Eights::of(positions), eights(masses));
+        let (mut knots, masses) = (moving.eights(), eights(masses));
         for first in self.start / LANES..(self.start + self.count) / LANES {
-            self.eliminate(&positions, masses, first, pivots);
-            self.substitute(&mut positions, masses, first, pivots);
+            self.eliminate(&knots, masses, first, pivots);
+            self.substitute(&mut knots, masses, first, pivots);
         }
     }
 
     #[inline(always)]
     fn eliminate<L: Lanes>(
         &self,
-        positions: &Eights<'_>,
+        knots: &MovingEights<'_>,
         masses: &[[f32; LANES]],
         first: usize,
         pivots: &mut Vec<Pivot<L>>,
@@ -66,12 +62,12 @@ impl<S> Threads<S> {
     {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         let stride = self.stride / LANES;
-        let (mut above, mut mass) = (positions.read::<L>(first), L::read(&masses[first]));
+        let (mut above, mut mass) = (knots.read::<L>(first), L::read(&masses[first]));
         let (mut direction, mut remainder, mut inverse) = (Vec3x8::zero(), zero, zero);
         pivots.clear();
         for stick in 0..self.knots - 1 {
             let eight = first + (stick + 1) * stride;
-            let (below, next_mass) = (positions.read(eight), L::read(&masses[eight]));
+            let (below, next_mass) = (knots.read(eight), L::read(&masses[eight]));
             let between = below - above;
             let length = between.length_squared().max(L::splat(1e-24)).sqrt();
             let spans = self.spans.span(stick);
@@ -96,7 +92,7 @@ impl<S> Threads<S> {
     #[inline(always)]
     fn substitute<L: Lanes>(
         &self,
-        positions: &mut Eights<'_>,
+        knots: &mut MovingEights<'_>,
         masses: &[[f32; LANES]],
         first: usize,
         pivots: &mut Vec<Pivot<L>>,
@@ -112,7 +108,7 @@ impl<S> Threads<S> {
             };
             let eight = first + knot * self.stride / LANES;
             let shift = (from_above - from_below) * L::read(&masses[eight]);
-            positions.write(eight, positions.read(eight) + shift);
+            knots.shift(eight, knots.read(eight), shift);
             from_below = from_above;
         }
     }

@@ -6,12 +6,12 @@
 
 use glam::{Mat3, Vec3};
 
-use super::points::{Points, add};
+use super::points::Points;
 use super::probe::{Form, Probe, probe_triangles};
 use super::solid::{Matter, Solid, Stance, part_bounds};
 use super::tile::{Bounds, Tile};
 use crate::shape::Surface;
-use crate::simd::{LANES, Lanes, Matrix3x8, Row, Vec3x8, read, write};
+use crate::simd::{LANES, Lanes, Matrix3x8, Row, Vec3x8, column, read, write};
 
 /// Eight particles and the planes they are kept above.
 #[derive(Debug, Clone)]
@@ -240,7 +240,7 @@ impl Touch {
         if hits.bits() == 0 {
             return false;
         }
-        let slip = points.motions::<L>(place) - carried;
+        let slip = Vec3x8::read(&points.displacement, place) - carried;
         let along = slip.dot(normal);
         let depth = hits.and(depth.min((-along).max(zero) + L::splat(push.recovery)));
         if solid.inverse_mass > 0.0 {
@@ -250,7 +250,7 @@ impl Touch {
         let across = slip - normal * along;
         let length = across.length_squared().max(L::splat(1e-24)).sqrt();
         let grip = (depth * L::splat(self.friction) / length).min(L::splat(1.0));
-        add(&mut points.position, place, normal * depth - across * hits.and(grip));
+        points.moving().0.shift(place, normal * depth - across * hits.and(grip));
         let light = hits.select(free * L::splat(push.lightness), read(lightened, place));
         write(light, lightened, place);
         true
@@ -272,9 +272,9 @@ impl Touch {
         slip.store(&mut slips);
         let (shift, turn) = solid.astray();
         for lane in (0..LANES).filter(|&lane| depths.0[lane] > 0.0) {
-            let of = |rows: &[Row; 3]| Vec3::new(rows[0].0[lane], rows[1].0[lane], rows[2].0[lane]);
             let place = self.place as usize + lane;
-            let (normal, arm, slip) = (of(&self.normal), of(&self.arm), of(&slips));
+            let (normal, arm, slip) =
+                (column(&self.normal, lane), column(&self.arm, lane), column(&slips, lane));
             let (shift_now, turn_now) = solid.astray();
             // What the particles before it did to the solid.
             let given_way = (shift_now - shift) + (turn_now - turn).cross(arm);

@@ -9,10 +9,12 @@
 //! the frame of the step's start. In these variables the inverse mass matrix is diag(1/m, 1), so that one Jacobian
 //! √I⁻¹ (l × Rᵀd) both reads a velocity and applies an impulse. The last number is 0 for what no impulse turns.
 
-use glam::{Mat3, Vec3};
+use glam::Mat3;
 
 use super::rigidity;
 use crate::simd::{LANES, Lanes, Matrix3x8, Row, Vec3x8};
+
+pub(super) use crate::simd::column;
 
 /// Three rows: all x, all y, all z.
 pub(super) type Rows3 = [Row; 3];
@@ -66,11 +68,6 @@ pub(super) struct Motion<L> {
     pub(super) linear: Vec3x8<L>,
     /// In the body's frame, in rad.
     pub(super) angular: Vec3x8<L>,
-}
-
-/// What three rows have in a lane.
-pub(super) fn column([x, y, z]: &Rows3, lane: usize) -> Vec3 {
-    Vec3::new(x.0[lane], y.0[lane], z.0[lane])
 }
 
 /// The axes that nine rows have in a lane.

@@ -2,8 +2,8 @@ use glam::DVec3;
 
 use super::*;
 use crate::simd::Kernel;
-use crate::solver::soft::points::set;
-use crate::solver::soft::tests::{cloud, farthest, in_f64, noise3, on_all, weights};
+use crate::solver::soft::points::{Coordinates, set};
+use crate::solver::soft::tests::{cloud, farthest, in_f64, moved, noise3, on_all, weights};
 
 const STRIDE: usize = 16;
 
@@ -14,9 +14,8 @@ impl Kernel for Straighten {
 
     #[inline(always)]
     fn run<L: Lanes>(self) -> Coordinates {
-        let Self(lines, mut positions, masses) = self;
-        lines.straighten::<L>(&mut positions, &masses);
-        positions
+        let Self(lines, positions, masses) = self;
+        moved(positions, |moving| lines.straighten::<L>(moving, &masses))
     }
 }
 

@@ -2,8 +2,10 @@ use glam::{DVec3, Vec3};
 
 use super::*;
 use crate::simd::Kernel;
-use crate::solver::soft::points::set;
-use crate::solver::soft::tests::{farthest, in_f64, noise, noise3, on_all, relax_in_f64, sticks_by_colour};
+use crate::solver::soft::points::{Coordinates, set};
+use crate::solver::soft::tests::{
+    farthest, in_f64, moved, noise, noise3, on_all, relax_in_f64, sticks_by_colour,
+};
 
 const WEAVE: [[f32; 3]; 3] = [[0.1, 0.1, 0.0], [0.12, 0.13, 0.0], [0.15, 0.15, 0.5]];
 
@@ -35,9 +37,8 @@ impl Kernel for Sweep<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self) -> Coordinates {
-        let (mut positions, masses) = sheet(self.0);
-        self.0.sweep::<L>(&mut positions, &masses, self.1, &weave());
-        positions
+        let (positions, masses) = sheet(self.0);
+        moved(positions, |moving| self.0.sweep::<L>(moving, &masses, self.1, &weave()))
     }
 }
 

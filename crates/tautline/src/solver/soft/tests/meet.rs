@@ -39,7 +39,6 @@ fn scene(meets_itself: bool) -> Scene {
         let at = points.at(place);
         let at = Vec3::new(3.3 - at.x, at.y + 0.1, at.z);
         set(&mut points.position, place, at);
-        set(&mut points.predicted, place, at);
     }
     meetings.forget(&points);
     Scene { grids, points, meetings }
@@ -190,7 +189,7 @@ fn it_does_not_matter_when_lists_were_made() {
             scene.meetings.part(&mut scene.points, f32::MAX);
         }
         assert!(kept.points.position == fresh.points.position, "step {step}");
-        assert!(kept.points.predicted == fresh.points.predicted, "step {step}");
+        assert!(kept.points.displacement == fresh.points.displacement, "step {step}");
     }
 }
 
@@ -203,7 +202,6 @@ fn a_pair_is_parted_and_keeps_its_momentum() {
         for (place, side) in [(0, -0.5), (1, 0.5)] {
             let direction = Vec3::new(0.6, 0.0, 0.8);
             set(&mut points.position, place, direction * (side * gap));
-            set(&mut points.predicted, place, direction * (side * gap));
             set(&mut points.displacement, place, direction * (-side * closing) + Vec3::Y * (side * 0.01));
             points.inverse_mass[place] = if place == 0 { 1.0 } else { 3.0 };
         }

@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use glam::{DVec3, Vec3};
 
 use super::grid::Grid;
-use super::points::{Coordinates, Points, get, set};
+use super::points::{Coordinates, Moving, Points, get, set};
 use crate::body::Cloth;
 use crate::simd::{Instructions, Kernel, run};
 
@@ -44,6 +44,18 @@ where
         assert!(format!("{:?}", run(instructions, kernel())) == bits, "{instructions:?} gives other bits");
     }
     result
+}
+
+/// Where a kernel moves particles at rest: and how far it moves them is what becomes of their displacements.
+pub(super) fn moved(mut position: Coordinates, kernel: impl FnOnce(&mut Moving<'_>)) -> Coordinates {
+    let before = in_f64(&position);
+    let mut displacement: Coordinates = std::array::from_fn(|_| vec![0.0; position[0].len()]);
+    kernel(&mut Moving { position: &mut position, displacement: &mut displacement });
+    let expected: Vec<DVec3> =
+        before.into_iter().zip(in_f64(&displacement)).map(|(at, moved)| at + moved).collect();
+    // What is between rows may be some 50 m away.
+    assert!(farthest(&position, &expected) < 2e-5);
+    position
 }
 
 pub(super) fn in_f64(positions: &Coordinates) -> Vec<DVec3> {
@@ -108,7 +120,6 @@ pub(super) fn put_wavy(points: &mut Points, grid: &Grid, height: f32) {
             let wave = 0.1 * (7.0 * x).sin() + 0.06 * (9.0 * z + 2.0 * x).cos();
             let at = Vec3::new(x, height + wave, z) + noise3(place) * 0.01;
             set(&mut points.position, place, at);
-            set(&mut points.predicted, place, at);
             points.inverse_mass[place] = 1.0;
             points.presence[place] = 1.0;
         }

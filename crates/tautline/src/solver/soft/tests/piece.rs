@@ -4,15 +4,16 @@ use super::*;
 use crate::simd::{Instructions, Kernel, run};
 use crate::solver::soft::bend::Lines;
 use crate::solver::soft::points::{get, set};
+use crate::solver::soft::tests::moved;
 
-struct Straighten<'a>(Lines, &'a mut Coordinates, &'a [f32]);
+struct Straighten<'a>(Lines, &'a Coordinates, &'a [f32]);
 
 impl Kernel for Straighten<'_> {
-    type Output = ();
+    type Output = Coordinates;
 
     #[inline(always)]
-    fn run<L: Lanes>(self) {
-        self.0.straighten::<L>(self.1, self.2);
+    fn run<L: Lanes>(self) -> Coordinates {
+        moved(self.1.clone(), |moving| self.0.straighten::<L>(moving, self.2))
     }
 }
 
@@ -34,9 +35,8 @@ fn a_rolled_strip_has_the_bending_moment_of_a_plate() {
             (0..LANES).for_each(|lane| set(&mut positions, knot * LANES + lane, at));
         }
         let masses = vec![compliance * 0.1; knots * LANES];
-        let before = positions.clone();
-        run(Instructions::Baseline, Straighten(lines, &mut positions, &masses));
-        let moved = get(&positions, 0).distance(get(&before, 0));
+        let after = run(Instructions::Baseline, Straighten(lines, &positions, &masses));
+        let moved = get(&after, 0).distance(get(&positions, 0));
         let moment = moved / (masses[0] * 2.0 * h * h) * edge;
         let expected = rigidity * curvature * width;
         assert!((moment / expected - 1.0).abs() < 5e-3, "{moment} N m instead of {expected}");

@@ -1,6 +1,7 @@
 use super::*;
 use crate::simd::Kernel;
-use crate::solver::soft::tests::{cloud, farthest, in_f64, on_all, relax_in_f64, weights};
+use crate::solver::soft::points::Coordinates;
+use crate::solver::soft::tests::{cloud, farthest, in_f64, moved, on_all, relax_in_f64, weights};
 
 const PLACES: usize = 96;
 
@@ -12,9 +13,9 @@ impl Kernel for Run {
     #[inline(always)]
     fn run<L: Lanes>(self) -> Coordinates {
         let Self(run, span, seed) = self;
-        let mut positions = cloud(PLACES, seed);
-        relax_run(&mut positions, &weights(PLACES), run, Spans::<L>::splat(span));
-        positions
+        moved(cloud(PLACES, seed), |moving| {
+            relax_run(moving, &weights(PLACES), run, Spans::<L>::splat(span));
+        })
     }
 }
 
@@ -69,13 +70,13 @@ impl Kernel for EachItsOwn {
     #[inline(always)]
     fn run<L: Lanes>(self) -> Coordinates {
         let rows: &[[Row; 3]] = &spans();
-        let mut positions = cloud(PLACES, 2);
-        for stick in 0..rows.len() {
-            let ends = [stick * LANES, (stick + 1) * LANES];
-            let spans: Spans<L> = rows.span(stick);
-            relax_spans(&mut positions, &weights(PLACES), ends, spans);
-        }
-        positions
+        moved(cloud(PLACES, 2), |moving| {
+            for stick in 0..rows.len() {
+                let ends = [stick * LANES, (stick + 1) * LANES];
+                let spans: Spans<L> = rows.span(stick);
+                relax_spans(moving, &weights(PLACES), ends, spans);
+            }
+        })
     }
 }
 

@@ -46,7 +46,6 @@ fn scene() -> (Points, Strands, Vec<Tile>) {
         let place = start + knot;
         let at = Vec3::new(0.06 * knot as f32 - 0.1, 0.1 + 0.05 * (knot as f32).sin(), 0.45);
         set(&mut points.position, place, at);
-        set(&mut points.predicted, place, at);
         points.inverse_mass[place] = 0.5;
         points.presence[place] = 1.0;
     }
@@ -122,7 +121,6 @@ fn crossing_segments_are_parted_and_momentum_is_kept() {
         let ends = [[Vec3::NEG_X, Vec3::X], [Vec3::NEG_Z, Vec3::Z].map(|end| end + Vec3::Y * height)];
         for (place, at) in ends.into_iter().flatten().enumerate() {
             set(&mut points.position, place, at + noise3(place) * 1e-3);
-            set(&mut points.predicted, place, at + noise3(place) * 1e-3);
             points.inverse_mass[place] = 1.0 + 0.2 * place as f32;
             let motion = if place > 1 { Vec3::new(0.001, -fall, 0.0) } else { Vec3::ZERO };
             set(&mut points.displacement, place, motion);

@@ -2,9 +2,9 @@ use glam::{DVec3, Vec3};
 
 use super::*;
 use crate::simd::{Kernel, Row};
-use crate::solver::soft::points::set;
+use crate::solver::soft::points::{Coordinates, set};
 use crate::solver::soft::stick::Span;
-use crate::solver::soft::tests::{cloud, farthest, in_f64, on_all, weights};
+use crate::solver::soft::tests::{cloud, farthest, in_f64, moved, on_all, weights};
 
 /// Nine knots, sixteen threads side by side, from place 8 on.
 const KNOTS: usize = 9;
@@ -18,10 +18,9 @@ impl Kernel for Solve<Span> {
 
     #[inline(always)]
     fn run<L: Lanes>(self) -> Coordinates {
-        let Self(spans, regularisation, mut positions, masses) = self;
+        let Self(spans, regularisation, positions, masses) = self;
         let threads = Threads { start: 8, stride: STRIDE, knots: KNOTS, count: 16, spans, regularisation };
-        threads.solve::<L>(&mut positions, &masses, &mut Vec::new());
-        positions
+        moved(positions, |moving| threads.solve::<L>(moving, &masses, &mut Vec::new()))
     }
 }
 
@@ -30,10 +29,9 @@ impl Kernel for Solve<&[[Row; 3]]> {
 
     #[inline(always)]
     fn run<L: Lanes>(self) -> Coordinates {
-        let Self(spans, regularisation, mut positions, masses) = self;
+        let Self(spans, regularisation, positions, masses) = self;
         let threads = Threads { start: 8, stride: STRIDE, knots: KNOTS, count: 16, spans, regularisation };
-        threads.solve::<L>(&mut positions, &masses, &mut Vec::new());
-        positions
+        moved(positions, |moving| threads.solve::<L>(moving, &masses, &mut Vec::new()))
     }
 }
 

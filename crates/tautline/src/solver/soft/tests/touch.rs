@@ -15,7 +15,6 @@ fn around() -> Points {
     for place in (0..PLACES).filter(|place| place % 8 != 7) {
         let at = noise3(place).normalize() * (1.0 + 0.1 * (place % 5) as f32 / 4.0);
         set(&mut points.position, place, at);
-        set(&mut points.predicted, place, at);
         points.inverse_mass[place] = 2.0 + (place % 3) as f32;
         points.presence[place] = 1.0;
     }
@@ -103,7 +102,6 @@ fn what_sticks_to_a_moving_ball_is_carried_along() {
     for place in (0..PLACES).filter(|place| place % 8 != 7) {
         let at = before.at(place).normalize() * (1.0 + THICKNESS - 1e-3);
         set(&mut before.position, place, at);
-        set(&mut before.predicted, place, at);
     }
     let motion = [Vec3::ZERO, Vec3::new(0.0, 0.0, 1e-3)];
     let solid = || Solid::ball(&shape.parts()[0], [0.0; 2], motion);
@@ -147,7 +145,6 @@ fn friction_follows_coulombs_law() {
         points.reset(PLACES);
         let at = Vec3::Y * (1.0 + THICKNESS - 0.01);
         set(&mut points.position, 3, at);
-        set(&mut points.predicted, 3, at);
         set(&mut points.displacement, 3, Vec3::new(slip, -0.01, 0.0));
         (points.inverse_mass[3], points.presence[3]) = (1.0, 1.0);
         let shape = ball();
