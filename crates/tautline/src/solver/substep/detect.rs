@@ -222,19 +222,23 @@ fn collide_with_triangle<L: Lanes>(
     (pair, detail): (&Pair, &mut Detail),
     scratch: &mut Scratch,
 ) -> Manifold {
-    let (b_in_a, approach, base) = relative(scene, a, b);
+    let (mut b_in_a, approach, base) = relative(scene, a, b);
     let triangle = surface.triangle(detail.part_b);
     let closing = -(b_in_a.rotation * triangle.normal).dot(approach);
     let margin = base + LOOK_AHEAD * (closing.max(0.0) + SIDEWAYS * approach.length());
-    let memory = &mut detail.memory;
-    let manifold = collide_triangle::<L>(part, &triangle, &b_in_a, (memory, scratch), margin);
-    if !scene.is_far_off(&manifold, approach, pair) {
-        return manifold;
-    }
-    let shapes = [Rounded::of(part), Rounded { corners: &triangle.corners, radius: 0.0 }];
-    match scene.at_first_touch([pair.a, pair.b], [a, b], shapes) {
-        Some(there) => collide_triangle::<L>(part, &triangle, &there, (memory, scratch), margin),
-        None => Manifold::default(),
+    let mut is_foreseen = false;
+    loop {
+        let memory = &mut detail.memory;
+        let manifold = collide_triangle::<L>(part, &triangle, &b_in_a, (memory, scratch), margin);
+        if is_foreseen || !scene.is_far_off(&manifold, approach, pair) {
+            return manifold;
+        }
+        let shapes = [Rounded::of(part), Rounded { corners: &triangle.corners, radius: 0.0 }];
+        match scene.at_first_touch([pair.a, pair.b], [a, b], shapes) {
+            Some(there) => b_in_a = there,
+            None => return Manifold::default(),
+        }
+        is_foreseen = true;
     }
 }
 
@@ -246,7 +250,7 @@ fn collide_parts<L: Lanes>(
     (pair, detail): (&Pair, &mut Detail),
     scratch: &mut Scratch,
 ) -> Manifold {
-    let (b_in_a, approach, base) = relative(scene, a, b);
+    let (mut b_in_a, approach, base) = relative(scene, a, b);
     let axis = detail.memory.axis;
     let closing = if axis == Vec3::ZERO {
         approach.length()
@@ -254,15 +258,19 @@ fn collide_parts<L: Lanes>(
         axis.dot(approach).max(0.0) + SIDEWAYS * approach.length()
     };
     let margin = base + LOOK_AHEAD * closing;
-    let memory = &mut detail.memory;
-    let manifold = collide::<L>(part_a, part_b, &b_in_a, (memory, scratch), margin);
-    if !scene.is_far_off(&manifold, approach, pair) {
-        return manifold;
-    }
-    let shapes = [Rounded::of(part_a), Rounded::of(part_b)];
-    match scene.at_first_touch([pair.a, pair.b], [a, b], shapes) {
-        Some(there) => collide::<L>(part_a, part_b, &there, (memory, scratch), margin),
-        None => Manifold::default(),
+    let mut is_foreseen = false;
+    loop {
+        let memory = &mut detail.memory;
+        let manifold = collide::<L>(part_a, part_b, &b_in_a, (memory, scratch), margin);
+        if is_foreseen || !scene.is_far_off(&manifold, approach, pair) {
+            return manifold;
+        }
+        let shapes = [Rounded::of(part_a), Rounded::of(part_b)];
+        match scene.at_first_touch([pair.a, pair.b], [a, b], shapes) {
+            Some(there) => b_in_a = there,
+            None => return Manifold::default(),
+        }
+        is_foreseen = true;
     }
 }
 
