@@ -6,6 +6,7 @@
 use crate::simd::{LANES, Row};
 
 use super::block::Rows3;
+use super::pairs::{fit, reserve};
 
 /// A pair with points, as a group of pairs sees it.
 #[derive(Debug, Clone, Copy)]
@@ -25,6 +26,8 @@ pub(super) struct Active {
     pub(super) moves_b: bool,
     /// Whether it belongs to a stack, see `stack`.
     pub(super) is_stacked: bool,
+    /// Where its rows are: the number of its lane among those of all batches.
+    pub(super) lane: u32,
 }
 
 /// In an empty lane.
@@ -89,7 +92,7 @@ pub(super) struct PointRows {
     pub(super) slid: [Row; 2],
 }
 
-/// Makes batches of the pairs; `first_batch` tells of each pair's batch and lane.
+/// Makes batches of the pairs.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Colouring {
     /// Colours in use by each place, 64 at a time.
@@ -111,13 +114,15 @@ impl Colouring {
     /// empty lanes name, `ground` the place in the lineup.
     pub(super) fn batch(
         &mut self,
-        pairs: &[Active],
+        pairs: &mut [Active],
         range_length: usize,
         [empty, ground]: [u32; 2],
         batches: &mut Vec<Batch>,
     ) {
         self.colour(pairs, range_length);
         batches.clear();
+        let count = self.counts.iter().map(|count| count.div_ceil(LANES as u32) as usize).sum();
+        reserve(batches, count);
         let mut first = 0;
         for (class, count) in self.counts.iter_mut().enumerate() {
             let points = class as u32 % MOST_POINTS + 1;
@@ -137,9 +142,10 @@ impl Colouring {
                 first += points;
             }
         }
-        for (active, &class) in pairs.iter().zip(&self.classes) {
+        for (active, &class) in pairs.iter_mut().zip(&self.classes) {
             let next = &mut self.counts[class as usize];
             let (batch, lane) = (*next as usize / LANES, *next as usize % LANES);
+            active.lane = *next;
             *next += 1;
             let batch = &mut batches[batch];
             batch.pairs[lane] = active.pair;
@@ -151,7 +157,9 @@ impl Colouring {
 
     fn colour(&mut self, pairs: &[Active], range_length: usize) {
         self.classes.clear();
+        reserve(&mut self.classes, pairs.len());
         self.classes.resize(pairs.len(), 0);
+        fit(&mut self.classes);
         self.counts.clear();
         self.left.clear();
         let mut todo: Option<Vec<u32>> = None;
@@ -213,12 +221,13 @@ mod tests {
             moves_a: true,
             moves_b: b < 190,
             is_stacked: false,
+            lane: 0,
         };
         let mut pairs: Vec<Active> = (1..=150).map(|i| pair(i - 1, 0, i)).collect();
         pairs.extend((1..=149).map(|i| pair(149 + i, i, i + 1)));
         pairs.extend((1..=20).map(|i| pair(298 + i, i, 199)));
         let mut batches = Vec::new();
-        Colouring::default().batch(&pairs, 200, [199, 207], &mut batches);
+        Colouring::default().batch(&mut pairs, 200, [199, 207], &mut batches);
         let mut seen = vec![0; pairs.len()];
         let mut first = 0;
         for batch in &batches {

@@ -25,6 +25,7 @@ mod pull;
 mod read;
 mod rigidity;
 mod rolling;
+mod search;
 mod stack;
 
 use serde::{Deserialize, Serialize};
@@ -37,7 +38,6 @@ use crate::particles::Particles;
 use crate::settings::Settings;
 use crate::simd::{LANES, run};
 
-use boxes::BoxSearch;
 use contact::{Pass, Softness};
 use crew::{Crew, Timing, Track};
 use detect::{Detect, Scene};
@@ -45,6 +45,7 @@ use group::Groups;
 use joint::JointSolver;
 use lineup::{Entry, Lineup, NOBODY, Role};
 use pairs::Pairs;
+use search::BoxSearch;
 use stack::{Aim, Stacks};
 
 /// What a snapshot keeps: all that the next step depends on and that is not in the particles.
@@ -166,12 +167,8 @@ impl RigidSolver {
         self.joints.begin(joints);
         let is_unread = is_first || !std::mem::replace(&mut self.is_read, true);
         self.crew.read(&self.lineup, (bodies, particles), &timing, is_unread);
-        let leaves = self.crew.count_versions(&self.lineup, &mut self.versions);
-        if is_first || leaves {
-            self.find_pairs(bodies, settings);
-        } else {
-            self.end_search();
-        }
+        let leavers = self.crew.count_versions(&self.lineup, &mut self.versions);
+        self.find_pairs(bodies, settings, leavers, is_first);
     }
 
     /// Puts all rigid bodies in their places.

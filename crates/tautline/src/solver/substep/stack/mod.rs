@@ -68,7 +68,7 @@ impl Stacks {
         if found.is_empty() {
             return;
         }
-        let mut lanes: Vec<(u32, Lane)> = groups.lanes().collect();
+        let mut lanes: Vec<(u32, Lane)> = groups.lanes(0..u32::MAX).collect();
         lanes.sort_unstable_by_key(|(pair, _)| *pair);
         let stacks = found.iter().map(|found| Stack::new(found, &lanes, groups, crew));
         self.stacks.extend(stacks.filter(|stack| stack.points().all(|point| point.depth() <= DEEP)));
