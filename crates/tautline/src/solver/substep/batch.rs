@@ -26,8 +26,6 @@ pub(super) struct Active {
     pub(super) moves_b: bool,
     /// Whether it belongs to a stack, see `stack`.
     pub(super) is_stacked: bool,
-    /// Where its rows are: the number of its lane among those of all batches.
-    pub(super) lane: u32,
 }
 
 /// In an empty lane.
@@ -114,7 +112,7 @@ impl Colouring {
     /// empty lanes name, `ground` the place in the lineup.
     pub(super) fn batch(
         &mut self,
-        pairs: &mut [Active],
+        pairs: &[Active],
         range_length: usize,
         [empty, ground]: [u32; 2],
         batches: &mut Vec<Batch>,
@@ -142,10 +140,9 @@ impl Colouring {
                 first += points;
             }
         }
-        for (active, &class) in pairs.iter_mut().zip(&self.classes) {
+        for (active, &class) in pairs.iter().zip(&self.classes) {
             let next = &mut self.counts[class as usize];
             let (batch, lane) = (*next as usize / LANES, *next as usize % LANES);
-            active.lane = *next;
             *next += 1;
             let batch = &mut batches[batch];
             batch.pairs[lane] = active.pair;
@@ -221,13 +218,12 @@ mod tests {
             moves_a: true,
             moves_b: b < 190,
             is_stacked: false,
-            lane: 0,
         };
         let mut pairs: Vec<Active> = (1..=150).map(|i| pair(i - 1, 0, i)).collect();
         pairs.extend((1..=149).map(|i| pair(149 + i, i, i + 1)));
         pairs.extend((1..=20).map(|i| pair(298 + i, i, 199)));
         let mut batches = Vec::new();
-        Colouring::default().batch(&mut pairs, 200, [199, 207], &mut batches);
+        Colouring::default().batch(&pairs, 200, [199, 207], &mut batches);
         let mut seen = vec![0; pairs.len()];
         let mut first = 0;
         for batch in &batches {

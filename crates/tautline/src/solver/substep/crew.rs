@@ -175,7 +175,10 @@ impl Crew {
             while leaves != 0 {
                 let place = first + leaves.trailing_zeros();
                 leaves &= leaves - 1;
-                leavers.push((lineup.places[place as usize], place));
+                let body = lineup.places[place as usize];
+                if lineup.is_place_of(place, body) {
+                    leavers.push((body, place));
+                }
             }
         }
         leavers

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::parallel;
-use crate::simd::{Instructions, Kernel, LANES, Lanes, Row, run};
+use crate::simd::{Instructions, Kernel, Lanes, Row, run};
 
 use super::batch::{Active, Batch, Colouring, HeaderRows, PointRows};
 use super::bounce::{Bounce, LANDING_VISITS, MOST_VISITS};
@@ -84,7 +84,7 @@ impl Group {
 
     fn batch(&mut self, ground: u32) {
         let empty = self.range.len() as u32 - 1;
-        self.colouring.batch(&mut self.active, self.range.len(), [empty, ground], &mut self.batches);
+        self.colouring.batch(&self.active, self.range.len(), [empty, ground], &mut self.batches);
         let points = self.batches.last().map_or(0, |batch| batch.first + batch.points);
         reserve(&mut self.headers, self.batches.len());
         self.headers.resize_with(self.batches.len(), HeaderRows::default);
@@ -117,7 +117,6 @@ fn active(lineup: &Lineup, (index, pair): (usize, &Pair), is_stacked: bool) -> O
         moves_a: (place_a as usize) < lineup.solved,
         moves_b: (place_b as usize) < lineup.solved,
         is_stacked,
-        lane: 0,
     };
     Some((region, active))
 }
@@ -178,18 +177,16 @@ impl Groups {
         &mut self.groups[index]
     }
 
-    /// Where the pairs of a run of numbers are, group after group; in each by their number.
-    pub(super) fn lanes(&self, run: Range<u32>) -> impl Iterator<Item = (u32, Lane)> {
-        (0..).zip(&self.groups).flat_map(move |(group, of_group)| {
-            let active = &of_group.active;
-            let start = active.partition_point(|active| active.pair < run.start);
-            let count = active[start..].partition_point(|active| active.pair < run.end);
-            let lane = move |active: &Active| {
-                let (batch, lane) = (active.lane / LANES as u32, active.lane % LANES as u32);
-                (active.pair, Lane { group, batch, lane })
-            };
-            active[start..start + count].iter().map(lane)
-        })
+    /// Tells where the pairs of a run of numbers are, batch after batch, as their rows are in memory.
+    pub(super) fn for_each_lane(&self, run: Range<u32>, mut visit: impl FnMut(u32, Lane)) {
+        let in_use = (0..).zip(&self.groups).filter(|(_, group)| !group.active.is_empty());
+        for (group, of_group) in in_use {
+            for (batch, of_batch) in (0..).zip(&of_group.batches) {
+                for (lane, &pair) in (0..).zip(&of_batch.pairs).filter(|(_, pair)| run.contains(pair)) {
+                    visit(pair, Lane { group, batch, lane });
+                }
+            }
+        }
     }
 
     fn batch_of(&self, at: &Lane) -> (&Group, &Batch) {

@@ -54,7 +54,11 @@ impl Poses<'_> {
 /// The contacts of a batch.
 #[inline(always)]
 fn held<'a>(batch: &Batch, contact_of: impl Fn(u32) -> Option<&'a Held>) -> [Option<&'a Held>; LANES] {
-    batch.pairs.map(|pair| if pair == NO_PAIR { None } else { contact_of(pair) })
+    let mut held = [None; LANES];
+    for (held, &pair) in held.iter_mut().zip(&batch.pairs) {
+        *held = if pair == NO_PAIR { None } else { contact_of(pair) };
+    }
+    held
 }
 
 #[inline(always)]
