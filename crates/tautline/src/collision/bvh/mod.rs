@@ -83,6 +83,17 @@ impl Bvh {
         }
     }
 
+    /// Gives the box in one place of the order other bounds; that also costs the search if it goes far.
+    fn replace(&mut self, slot: u32, mut bounds: Aabb) {
+        let mut number = slot as usize;
+        for &start in &self.levels {
+            let node = &mut self.nodes[start + number / LANES];
+            node.set(number % LANES, bounds);
+            bounds = node.bounds();
+            number /= LANES;
+        }
+    }
+
     /// How many boxes it holds.
     pub(crate) fn len(&self) -> usize {
         self.order.indices().len()
@@ -134,12 +145,16 @@ impl Node {
     fn around(children: impl Iterator<Item = Aabb>) -> Self {
         let mut node = Self::EMPTY;
         for (lane, bounds) in children.enumerate() {
-            for axis in 0..3 {
-                node.low[axis].0[lane] = bounds.low[axis];
-                node.high[axis].0[lane] = bounds.high[axis];
-            }
+            node.set(lane, bounds);
         }
         node
+    }
+
+    fn set(&mut self, lane: usize, bounds: Aabb) {
+        for axis in 0..3 {
+            self.low[axis].0[lane] = bounds.low[axis];
+            self.high[axis].0[lane] = bounds.high[axis];
+        }
     }
 
     fn bounds(&self) -> Aabb {
@@ -177,6 +192,13 @@ mod tests {
 
     pub(super) const SETS: [Instructions; 3] =
         [Instructions::Widest, Instructions::Baseline, Instructions::Scalar];
+
+    /// All pairs that overlap.
+    pub(super) fn pairs_of(boxes: &[Aabb], movable: &[bool], search: &mut PairSearch) -> Vec<(u32, u32)> {
+        let mut pairs = vec![(7, 7)];
+        overlapping_pairs(boxes, movable, |_, _| true, Instructions::Widest, search, &mut pairs);
+        pairs
+    }
 
     pub(super) fn noise(seed: &mut u32) -> f32 {
         *seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);

@@ -30,6 +30,11 @@ impl SpatialOrder {
         &self.indices
     }
 
+    /// Gives back scratch memory.
+    pub(super) fn shrink(&mut self) {
+        (self.entries, self.stretches) = (Vec::new(), Vec::new());
+    }
+
     pub(super) fn arrange(&mut self, boxes: &[Aabb]) {
         self.entries.clear();
         self.entries.extend((0..).zip(boxes).map(|(index, b)| Entry { center: b.low + b.high, index }));

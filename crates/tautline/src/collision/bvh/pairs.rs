@@ -19,6 +19,10 @@ pub(crate) struct PairSearch {
     tree: Bvh,
     /// How many tests the tree took when it was built; 0 if it has to be built anew.
     tests_when_built: usize,
+    /// Where each box is in the tree's order; empty until one is replaced.
+    slots: Vec<u32>,
+    /// How many boxes have been replaced since the tree was built.
+    replaced: usize,
     /// For every node of the tree one bit for each child in which something is movable.
     movable: Vec<u8>,
     found: Vec<(u32, u32)>,
@@ -43,23 +47,71 @@ pub(crate) fn overlapping_pairs(
     search: &mut PairSearch,
     pairs: &mut Vec<(u32, u32)>,
 ) {
-    let is_kept = search.tests_when_built > 0 && search.tree.len() == boxes.len();
-    if is_kept {
-        search.tree.refit(boxes);
-    } else {
-        search.tree.build(boxes);
-    }
-    search.mark(movable);
-    let tests = search.descend(&may_meet, instructions);
-    if !is_kept {
-        search.tests_when_built = tests;
-    } else if tests as f32 > WORN_OUT * search.tests_when_built as f32 {
-        search.tests_when_built = 0;
-    }
+    search.find(boxes, movable, may_meet, instructions);
     search.sort(boxes.len(), pairs);
 }
 
 impl PairSearch {
+    /// Finds what [`overlapping_pairs`] does, and leaves it to be named and sorted.
+    pub(crate) fn find(
+        &mut self,
+        boxes: &[Aabb],
+        movable: &[bool],
+        may_meet: impl Fn(u32, u32) -> bool + Sync,
+        instructions: Instructions,
+    ) {
+        let is_kept = self.tests_when_built > 0 && self.tree.len() == boxes.len();
+        if is_kept {
+            self.tree.refit(boxes);
+        } else {
+            self.build(boxes);
+        }
+        self.mark(movable);
+        let tests = self.descend(&may_meet, instructions);
+        if !is_kept {
+            self.tests_when_built = tests;
+        } else if tests as f32 > WORN_OUT * self.tests_when_built as f32 {
+            self.tests_when_built = 0;
+        }
+    }
+
+    /// Has the boxes of the pairs that were found go by other names, no two by the same.
+    pub(crate) fn name(&mut self, names: &[u32]) {
+        for (a, b) in &mut self.found {
+            let [first, second] = [*a, *b].map(|index| names[index as usize]);
+            (*a, *b) = (first.min(second), first.max(second));
+        }
+    }
+
+    /// Builds the tree of these boxes, to be asked and to have single boxes replaced.
+    pub(crate) fn build(&mut self, boxes: &[Aabb]) {
+        self.tree.build(boxes);
+        self.slots.clear();
+        (self.tests_when_built, self.replaced) = (0, 0);
+    }
+
+    /// Whether there is a tree of so many boxes, of which less have been replaced than it has.
+    pub(crate) fn is_fresh(&self, count: usize) -> bool {
+        self.tree.len() == count && self.replaced < count
+    }
+
+    /// Gives a box of the tree other bounds.
+    pub(crate) fn replace(&mut self, index: u32, bounds: Aabb) {
+        if self.slots.len() != self.tree.len() {
+            self.slots.resize(self.tree.len(), 0);
+            for (slot, &index) in (0..).zip(self.tree.order.indices()) {
+                self.slots[index as usize] = slot;
+            }
+        }
+        self.tree.replace(self.slots[index as usize], bounds);
+        self.replaced += 1;
+    }
+
+    /// Calls `visit` for each box that overlaps or touches `bounds`.
+    pub(crate) fn overlaps(&self, bounds: Aabb, instructions: Instructions, visit: impl FnMut(u32)) {
+        self.tree.overlaps(bounds, instructions, visit);
+    }
+
     /// Marks what is movable in the tree.
     fn mark(&mut self, movable: &[bool]) {
         let Self { tree, movable: marks, .. } = self;
@@ -103,11 +155,12 @@ impl PairSearch {
     /// Gives back memory that the next search can do without.
     pub(crate) fn shrink(&mut self) {
         (self.found, self.sorted, self.starts) = (Vec::new(), Vec::new(), Vec::new());
+        self.tree.order.shrink();
     }
 
-    /// By b, then by a without disturbing what is equal there, each time counting: several times faster than
-    /// comparing.
-    fn sort(&mut self, count: usize, pairs: &mut Vec<(u32, u32)>) {
+    /// Writes the pairs that were found, ascending; all names are below `count`. By b, then by a without disturbing
+    /// what is equal there, each time counting: several times faster than comparing.
+    pub(crate) fn sort(&mut self, count: usize, pairs: &mut Vec<(u32, u32)>) {
         let Self { found, sorted, starts, .. } = self;
         count_sort(found, sorted, starts, count, |&(_, b)| b);
         count_sort(sorted, pairs, starts, count, |&(a, _)| a);
@@ -230,7 +283,7 @@ mod tests {
     use glam::Vec3;
     use proptest::prelude::*;
 
-    use super::super::tests::{SETS, boxes, noise, pile};
+    use super::super::tests::{SETS, boxes, noise, pairs_of, pile};
     use super::*;
 
     fn all_pairs(boxes: &[Aabb], movable: &[bool]) -> Vec<(u32, u32)> {
@@ -263,15 +316,36 @@ mod tests {
         fn a_tree_that_is_kept_finds_the_same_pairs(
             scenes in prop::collection::vec(boxes(60), 1..6),
         ) {
-            let (mut search, mut pairs) = (PairSearch::default(), Vec::new());
+            let mut search = PairSearch::default();
             let count = scenes.iter().map(Vec::len).min().unwrap_or(0);
             for scene in &scenes {
                 // All of it in other places, or another number of boxes.
                 for boxes in [&scene[..count], &scene[..]] {
                     let movable = vec![true; boxes.len()];
-                    overlapping_pairs(boxes, &movable, |_, _| true, Instructions::Widest, &mut search, &mut pairs);
-                    prop_assert_eq!(&pairs, &all_pairs(boxes, &movable));
+                    prop_assert_eq!(pairs_of(boxes, &movable, &mut search), all_pairs(boxes, &movable));
                 }
+            }
+        }
+
+        #[test]
+        fn a_tree_with_other_boxes_in_it_is_that_of_all_boxes(
+            boxes in boxes(80),
+            others in boxes(80),
+            every in 1..5_usize,
+        ) {
+            let mut search = PairSearch::default();
+            search.build(&boxes);
+            let mut now = boxes.clone();
+            for (index, bounds) in others.iter().take(boxes.len()).enumerate().step_by(every) {
+                now[index] = *bounds;
+                search.replace(index as u32, *bounds);
+            }
+            for bounds in now.iter().chain(&others) {
+                let mut found = Vec::new();
+                search.overlaps(*bounds, Instructions::Widest, |index| found.push(index as usize));
+                found.sort_unstable();
+                let expected: Vec<usize> = (0..now.len()).filter(|&i| now[i].overlaps(bounds)).collect();
+                prop_assert_eq!(found, expected);
             }
         }
     }
@@ -279,15 +353,7 @@ mod tests {
     #[test]
     fn a_hundred_boxes_in_one_place_all_overlap() {
         let boxes = vec![Aabb::around(&[Vec3::ONE], 0.5); 100];
-        let mut pairs = Vec::new();
-        overlapping_pairs(
-            &boxes,
-            &[true; 100],
-            |_, _| true,
-            Instructions::Widest,
-            &mut PairSearch::default(),
-            &mut pairs,
-        );
+        let pairs = pairs_of(&boxes, &[true; 100], &mut PairSearch::default());
         assert_eq!(pairs, all_pairs(&boxes, &[true; 100]));
         assert_eq!(pairs.len(), 4950);
     }
@@ -296,16 +362,7 @@ mod tests {
     fn a_large_pile_has_the_pairs_of_all_pairs() {
         let boxes = pile(3000, 1);
         let movable: Vec<bool> = (0..boxes.len()).map(|i| i % 3 > 0).collect();
-        let mut pairs = Vec::new();
-        overlapping_pairs(
-            &boxes,
-            &movable,
-            |_, _| true,
-            Instructions::Widest,
-            &mut PairSearch::default(),
-            &mut pairs,
-        );
-        assert_eq!(pairs, all_pairs(&boxes, &movable));
+        assert_eq!(pairs_of(&boxes, &movable, &mut PairSearch::default()), all_pairs(&boxes, &movable));
     }
 
     /// Boxes that cannot move and overlap each other must not cost: they come in thousands, as tiles of a ground.
@@ -314,8 +371,8 @@ mod tests {
         let boxes = pile(4096, 3);
         let mut movable = vec![false; boxes.len()];
         movable[17] = true;
-        let (mut search, mut pairs) = (PairSearch::default(), Vec::new());
-        overlapping_pairs(&boxes, &movable, |_, _| true, Instructions::Widest, &mut search, &mut pairs);
+        let mut search = PairSearch::default();
+        pairs_of(&boxes, &movable, &mut search);
         assert!(search.tests_when_built < 100, "{}", search.tests_when_built);
     }
 
@@ -325,16 +382,8 @@ mod tests {
         let mut boxes = pile(4096, 5);
         let mut search = PairSearch::default();
         let mut count_tests = |boxes: &[Aabb]| {
-            let mut pairs = Vec::new();
             search.tests_when_built = 0;
-            overlapping_pairs(
-                boxes,
-                &vec![true; boxes.len()],
-                |_, _| true,
-                Instructions::Widest,
-                &mut search,
-                &mut pairs,
-            );
+            let pairs = pairs_of(boxes, &vec![true; boxes.len()], &mut search);
             (search.tests_when_built, pairs.len())
         };
         let (alone, pairs_alone) = count_tests(&boxes);
@@ -344,62 +393,5 @@ mod tests {
         // With all other groups each group with a huge box has to be tested.
         assert_eq!(pairs_together, pairs_alone + 4 * 4096 + 6);
         assert!(together < alone + 4 * 4096 / 8 * 5 / 4, "{alone} {together}");
-    }
-
-    /// The same boxes in no order.
-    fn shuffled(mut boxes: Vec<Aabb>, mut seed: u32) -> Vec<Aabb> {
-        for i in (1..boxes.len()).rev() {
-            boxes.swap(i, ((noise(&mut seed) * 0.5 + 0.5) * i as f32) as usize);
-        }
-        boxes
-    }
-
-    #[test]
-    #[ignore = "prints times"]
-    fn cost_per_box() {
-        for count in [2, 64, 1000, 4000, 16_000] {
-            let ordered = cost(count, |seed| pile(count, seed));
-            let shuffled = cost(count, |seed| shuffled(pile(count, seed), seed));
-            println!(
-                "{count:6} boxes, ns each: built, kept, a ray: {ordered:.0?}, in no order {shuffled:.0?}"
-            );
-        }
-    }
-
-    /// Nanoseconds for each box: to find the pairs with a new tree, with one that is kept, and a ray.
-    fn cost(count: usize, boxes: impl Fn(u32) -> Vec<Aabb>) -> [f64; 3] {
-        let mut least = [f64::INFINITY; 3];
-        let (mut search, mut pairs) = (PairSearch::default(), Vec::new());
-        for boxes in (0..40).map(boxes) {
-            search.tests_when_built = 0;
-            let mut find = || {
-                let movable = vec![true; boxes.len()];
-                overlapping_pairs(
-                    &boxes,
-                    &movable,
-                    |_, _| true,
-                    Instructions::Widest,
-                    &mut search,
-                    &mut pairs,
-                );
-            };
-            let times = [seconds(&mut find), seconds(&mut find), {
-                let tree = Bvh::new(&boxes);
-                let across = |from: &Aabb| {
-                    tree.ray(from.low, Vec3::new(3.0, 2.0, 1.0), 1.0, Instructions::Widest, |_, t| t)
-                };
-                seconds(|| boxes.iter().for_each(across))
-            }];
-            for (least, time) in least.iter_mut().zip(times) {
-                *least = least.min(time * 1e9 / count as f64);
-            }
-        }
-        least
-    }
-
-    fn seconds(work: impl FnOnce()) -> f64 {
-        let start = std::time::Instant::now();
-        work();
-        start.elapsed().as_secs_f64()
     }
 }

@@ -180,8 +180,8 @@ impl<B: Bound, F: FnMut(u32, f32) -> f32> Kernel for NearestFirst<'_, B, F> {
 mod tests {
     use proptest::prelude::*;
 
-    use super::super::tests::{SETS, boxes, pile};
-    use super::super::{PairSearch, overlapping_pairs};
+    use super::super::PairSearch;
+    use super::super::tests::{SETS, boxes, pairs_of, pile};
     use super::*;
 
     fn vector(range: std::ops::Range<f32>) -> impl Strategy<Value = Vec3> {
@@ -220,16 +220,7 @@ mod tests {
         for count in [1, 3, 9, 70] {
             let ordinary = || pile(count, 1).into_iter();
             for boxes in odd().map(|odd| ordinary().chain([odd]).collect::<Vec<_>>()) {
-                let mut found = Vec::new();
-                let (mut search, movable) = (PairSearch::default(), vec![true; boxes.len()]);
-                overlapping_pairs(
-                    &boxes,
-                    &movable,
-                    |_, _| true,
-                    Instructions::Widest,
-                    &mut search,
-                    &mut found,
-                );
+                let found = pairs_of(&boxes, &vec![true; boxes.len()], &mut PairSearch::default());
                 let expected = |a: u32, b: u32| boxes[a as usize].overlaps(&boxes[b as usize]);
                 let others = (0..count as u32).flat_map(|b| (0..b).map(move |a| (a, b)));
                 assert!(

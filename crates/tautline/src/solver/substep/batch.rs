@@ -6,6 +6,7 @@
 use crate::simd::{LANES, Row};
 
 use super::block::Rows3;
+use super::pairs::{fit, reserve};
 
 /// A pair with points, as a group of pairs sees it.
 #[derive(Debug, Clone, Copy)]
@@ -89,7 +90,7 @@ pub(super) struct PointRows {
     pub(super) slid: [Row; 2],
 }
 
-/// Makes batches of the pairs; `first_batch` tells of each pair's batch and lane.
+/// Makes batches of the pairs.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Colouring {
     /// Colours in use by each place, 64 at a time.
@@ -118,6 +119,8 @@ impl Colouring {
     ) {
         self.colour(pairs, range_length);
         batches.clear();
+        let count = self.counts.iter().map(|count| count.div_ceil(LANES as u32) as usize).sum();
+        reserve(batches, count);
         let mut first = 0;
         for (class, count) in self.counts.iter_mut().enumerate() {
             let points = class as u32 % MOST_POINTS + 1;
@@ -151,7 +154,9 @@ impl Colouring {
 
     fn colour(&mut self, pairs: &[Active], range_length: usize) {
         self.classes.clear();
+        reserve(&mut self.classes, pairs.len());
         self.classes.resize(pairs.len(), 0);
+        fit(&mut self.classes);
         self.counts.clear();
         self.left.clear();
         let mut todo: Option<Vec<u32>> = None;

@@ -52,8 +52,8 @@ pub(super) struct Track {
     pub(super) need: Row,
     /// Bits of the lanes that have moved since contacts were looked for.
     pub(super) moved: u32,
-    /// Whether one may leave its box in this step.
-    pub(super) leaves: bool,
+    /// Bits of the lanes that may leave their boxes in this step.
+    pub(super) leaves: u32,
     /// Bits of the lanes in haste, for how far they go and how far they turn: see `RigidSolver::note_haste`.
     #[serde(skip)]
     pub(super) rushing: u32,
@@ -160,11 +160,11 @@ impl Crew {
         });
     }
 
-    /// Raises the versions of bodies that have moved, and tells whether one may leave its box in this step.
-    pub(super) fn count_versions(&mut self, lineup: &Lineup, versions: &mut [u32]) -> bool {
-        let mut leaves = false;
+    /// Raises the versions of bodies that have moved, and tells how many may leave their boxes in this step.
+    pub(super) fn count_versions(&mut self, lineup: &Lineup, versions: &mut [u32]) -> usize {
+        let mut leaves = 0;
         for (track, places) in self.tracks.iter_mut().zip(lineup.places.chunks(LANES)) {
-            leaves |= std::mem::take(&mut track.leaves);
+            leaves += track.leaves.count_ones() as usize;
             let mut moved = std::mem::take(&mut track.moved);
             while moved != 0 {
                 let body = places[moved.trailing_zeros() as usize];
@@ -177,12 +177,21 @@ impl Crew {
         leaves
     }
 
-    /// Remembers that boxes have been made, in which bodies have `room` by place.
-    pub(super) fn set_boxes(&mut self, room: &[f32]) {
-        for ((track, block), room) in self.tracks.iter_mut().zip(&self.blocks).zip(room.chunks(LANES)) {
-            track.boxed = Earlier { center: block.center, axes: block.axes };
-            track.room.0.copy_from_slice(room);
+    /// The bodies, with their places, that may leave their boxes; they are noted no longer.
+    pub(super) fn take_leavers(&mut self, lineup: &Lineup) -> Vec<(u32, u32)> {
+        let mut leavers = Vec::new();
+        for (track, first) in self.tracks.iter_mut().zip((0..).step_by(LANES)) {
+            let mut leaves = std::mem::take(&mut track.leaves);
+            while leaves != 0 {
+                let place = first + leaves.trailing_zeros();
+                leaves &= leaves - 1;
+                let body = lineup.places[place as usize];
+                if lineup.is_place_of(place, body) {
+                    leavers.push((body, place));
+                }
+            }
         }
+        leavers
     }
 
     /// Adds what forces and contacts do in a substep.

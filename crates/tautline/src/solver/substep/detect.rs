@@ -9,11 +9,11 @@ use std::sync::Arc;
 
 use glam::{Mat3, Vec3};
 
-use super::held::{Held, HeldPoint, NAMELESS};
+use super::held::{Held, HeldPoint};
 use super::pairs::{Detail, Pair};
 use crate::body::{Body, HalfSpace, Substance};
 use crate::geometry::manifold::{
-    Manifold, Memory, Placement, Scratch, collide, collide_plane, collide_triangle,
+    MAX_POINTS, Manifold, Memory, Placement, Scratch, collide, collide_plane, collide_triangle,
 };
 use crate::geometry::query::Rounded;
 use crate::shape::{Convex, Shape, Surface};
@@ -171,7 +171,7 @@ fn update<L: Lanes>(scene: Scene<'_>, pair: &mut Pair, detail: &mut Detail, scra
         }
     };
     if manifold.count > 0 {
-        hold(&manifold, (&a, &b), detail);
+        hold(scene, &manifold, (&a, &b), pair, detail);
     } else if pair.points > 0 {
         detail.held = None;
     }
@@ -276,18 +276,20 @@ fn collide_parts<L: Lanes>(
 
 /// Keeps a contact, which goes on as the pair's last one did.
 #[inline(always)]
-fn hold(manifold: &Manifold, (a, b): (&Placed, &Placed), detail: &mut Detail) {
+fn hold(scene: Scene<'_>, manifold: &Manifold, (a, b): (&Placed, &Placed), pair: &Pair, detail: &mut Detail) {
     let normal = a.axes * manifold.normal;
-    let mut held = Held::new(normal, detail.touch);
-    for (point, found) in held.points.iter_mut().zip(&manifold.points[..manifold.count]) {
-        *point = HeldPoint::new(found.on_a, found.on_b, name(found.key));
+    let mut points = [HeldPoint::default(); MAX_POINTS];
+    for (point, found) in points.iter_mut().zip(&manifold.points[..manifold.count]) {
+        *point = HeldPoint::new(found.on_a, found.on_b, found.key);
     }
+    let points = &mut points[..manifold.count];
     let Some(old) = &mut detail.held else {
-        detail.held = Some(Box::new(held));
+        let [surface_a, surface_b] = [pair.a, pair.b].map(|body| scene.bodies[body as usize].surface);
+        detail.held = Some(Held::new(normal, surface_a.against(&surface_b), points));
         return;
     };
     let old_normal = old.normal();
-    for point in &mut held.points[..manifold.count] {
+    for point in points.iter_mut() {
         let Some(before) = predecessor(old, point.key(), point.on_a(), a.reach) else { continue };
         let distance = (b.center + b.axes * before.on_b()) - (a.center + a.axes * before.on_a());
         let sticks = before.normal_impulse() > 0.0 && distance.dot(old_normal) < LETS_GO;
@@ -295,12 +297,7 @@ fn hold(manifold: &Manifold, (a, b): (&Placed, &Placed), detail: &mut Detail) {
             if sticks { (distance + before.slip()).reject_from_normalized(normal) } else { Vec3::ZERO };
         point.continue_from(before.normal_impulse(), before.tangent_impulse(), slip);
     }
-    **old = held;
-}
-
-/// Of features, never `NAMELESS`.
-fn name(key: u32) -> u32 {
-    key.wrapping_add(1).max(1)
+    old.replace(normal, old.touch(), points);
 }
 
 /// The point of the last contact that a new one goes on from: of the same features, or else the nearest.
@@ -308,17 +305,14 @@ fn name(key: u32) -> u32 {
 fn predecessor(old: &Held, key: u32, on_a: Vec3, reach: f32) -> Option<HeldPoint> {
     let mut nearest = SAME_PLACE_SQUARED * reach * reach;
     let mut found = None;
-    for point in &old.points {
-        if point.key() == NAMELESS {
-            continue;
-        }
+    for point in old.points() {
         if point.key() == key {
-            return Some(*point);
+            return Some(point);
         }
         let distance = point.on_a().distance_squared(on_a);
         if distance < nearest {
             nearest = distance;
-            found = Some(*point);
+            found = Some(point);
         }
     }
     found

@@ -6,7 +6,7 @@
 use glam::Vec3;
 
 use super::block::ParticleRows;
-use super::group::{Group, Lane};
+use super::group::Group;
 use super::lineup::Lineup;
 use super::{Lost, RigidSolver, prepare};
 use crate::body::Body;
@@ -19,6 +19,8 @@ use crate::simd::{LANES, Row};
 const WORTHWHILE: usize = 1024;
 /// … so many at a time.
 const CHUNK: usize = 256;
+/// In so many runs multipliers are kept.
+const RUNS: usize = 8;
 /// Blocks that are written at a time.
 const BLOCKS: usize = 32;
 
@@ -66,20 +68,18 @@ impl RigidSolver {
 
     fn keep_multipliers(&mut self) {
         self.groups.iter_mut().filter(|group| !group.active.is_empty()).for_each(Group::forget_blows);
-        let mut lanes: Vec<Option<Lane>> = vec![None; self.pairs.details.len()];
-        for (pair, lane) in self.groups.lanes() {
-            lanes[pair as usize] = Some(lane);
-        }
         let (groups, details) = (&self.groups, &mut self.pairs.details);
-        let worthwhile = parallel::is_worthwhile(lanes.len(), WORTHWHILE);
-        let mut chunks: Vec<_> = lanes.chunks(CHUNK).zip(details.chunks_mut(CHUNK)).collect();
-        parallel::for_each(&mut chunks, worthwhile, |(lanes, details)| {
-            for (lane, detail) in lanes.iter().zip(details.iter_mut()) {
-                if let (Some(lane), Some(held)) = (lane, &mut detail.held) {
-                    let (header, points) = groups.rows(lane);
+        let worthwhile = parallel::is_worthwhile(details.len(), WORTHWHILE);
+        // Every run goes through all batches, so there are not many.
+        let run = if worthwhile { details.len().div_ceil(RUNS) } else { details.len().max(1) };
+        let mut runs: Vec<_> = (0..).step_by(run).zip(details.chunks_mut(run)).collect();
+        parallel::for_each(&mut runs, worthwhile, |(first, details)| {
+            groups.for_each_lane(*first..*first + details.len() as u32, |pair, lane| {
+                if let Some(held) = &mut details[(pair - *first) as usize].held {
+                    let (header, points) = groups.rows(&lane);
                     prepare::keep(lane.lane(), header, points, held);
                 }
-            }
+            });
         });
     }
 }

@@ -5,14 +5,19 @@ use std::ops::Range;
 use crate::parallel;
 use crate::simd::{Instructions, Kernel, Lanes, Row, run};
 
-use super::batch::{Active, Batch, Colouring, HeaderRows, NO_PAIR, PointRows};
+use super::batch::{Active, Batch, Colouring, HeaderRows, PointRows};
 use super::bounce::{Bounce, LANDING_VISITS, MOST_VISITS};
 use super::contact::{Pass, Softness, pass};
 use super::crew::Crew;
 use super::lineup::{Lineup, Region};
-use super::pairs::Pairs;
+use super::pairs::{Pair, Pairs, fit, reserve};
 use super::prepare::{Poses, fill};
 use super::rolling::Rolling;
+
+/// From so many pairs on it pays to sort them side by side, …
+const WORTHWHILE: usize = 4096;
+/// … so many at a time.
+const CHUNK: usize = 1024;
 
 /// Pairs that are solved one batch after the other.
 #[derive(Debug, Clone)]
@@ -81,13 +86,39 @@ impl Group {
         let empty = self.range.len() as u32 - 1;
         self.colouring.batch(&self.active, self.range.len(), [empty, ground], &mut self.batches);
         let points = self.batches.last().map_or(0, |batch| batch.first + batch.points);
-        if self.headers.len() < self.batches.len() {
-            self.headers.resize_with(self.batches.len(), HeaderRows::default);
-        }
-        if self.points.len() < points as usize {
-            self.points.resize_with(points as usize, PointRows::default);
-        }
+        reserve(&mut self.headers, self.batches.len());
+        self.headers.resize_with(self.batches.len(), HeaderRows::default);
+        reserve(&mut self.points, points as usize);
+        self.points.resize_with(points as usize, PointRows::default);
+        fit(&mut self.active);
+        fit(&mut self.batches);
+        fit(&mut self.headers);
+        fit(&mut self.points);
     }
+}
+
+/// A pair as its group sees it, if it has points and a body that is solved for.
+fn active(lineup: &Lineup, (index, pair): (usize, &Pair), is_stacked: bool) -> Option<(Region, Active)> {
+    if pair.points == 0 {
+        return None;
+    }
+    let place = |body: u32| lineup.place_of.get(body as usize).copied().unwrap_or(u32::MAX);
+    let (place_a, place_b) = (place(pair.a), place(pair.b).min(lineup.ground()));
+    let region = lineup.region(place_a, place_b)?;
+    let start = lineup.range(region).start as u32;
+    let local = |place: u32| lineup.velocity_place(region, place) - start;
+    let active = Active {
+        pair: index as u32,
+        a: local(place_a),
+        b: local(place_b),
+        place_a,
+        place_b,
+        points: pair.points as u8,
+        moves_a: (place_a as usize) < lineup.solved,
+        moves_b: (place_b as usize) < lineup.solved,
+        is_stacked,
+    };
+    Some((region, active))
 }
 
 impl Groups {
@@ -114,43 +145,48 @@ impl Groups {
     /// `is_stacked` tells of each pair whether it belongs to a stack; of those behind its end it does not.
     pub(super) fn sort_in(&mut self, pairs: &Pairs, lineup: &Lineup, is_stacked: &[bool]) {
         self.groups.iter_mut().for_each(|group| group.active.clear());
-        let stripe_count = lineup.stripes.len();
-        let even = stripe_count / 2;
-        for (index, pair) in pairs.pairs.iter().enumerate().filter(|(_, pair)| pair.points > 0) {
-            let place = |body: u32| lineup.place_of.get(body as usize).copied().unwrap_or(u32::MAX);
-            let (place_a, place_b) = (place(pair.a), place(pair.b).min(lineup.ground()));
-            let Some(region) = lineup.region(place_a, place_b) else { continue };
-            let group = match region {
-                Region::Stripe(i) => i as usize,
-                Region::Border(i) if i % 2 == 0 => stripe_count + i as usize / 2,
-                Region::Border(i) => stripe_count + even + i as usize / 2,
-                Region::Far => self.groups.len() - 1,
-            };
-            let group = &mut self.groups[group];
-            let local = |place: u32| lineup.velocity_place(region, place) - group.range.start as u32;
-            group.active.push(Active {
-                pair: index as u32,
-                a: local(place_a),
-                b: local(place_b),
-                place_a,
-                place_b,
-                points: pair.points as u8,
-                moves_a: (place_a as usize) < lineup.solved,
-                moves_b: (place_b as usize) < lineup.solved,
-                is_stacked: is_stacked.get(index).copied().unwrap_or(false),
-            });
+        let sort = |(index, pair): (usize, &Pair)| {
+            let is_stacked = is_stacked.get(index).copied().unwrap_or(false);
+            active(lineup, (index, pair), is_stacked)
+        };
+        let numbered = pairs.pairs.iter().enumerate();
+        if !parallel::is_worthwhile(pairs.pairs.len(), WORTHWHILE) {
+            for (region, active) in numbered.filter_map(sort) {
+                self.group_of(region).active.push(active);
+            }
+            return;
+        }
+        let mut sorted = vec![Vec::new(); pairs.pairs.len().div_ceil(CHUNK)];
+        let mut chunks: Vec<_> = (0..).step_by(CHUNK).zip(&mut sorted).collect();
+        parallel::for_each(&mut chunks, true, |(start, sorted)| {
+            sorted.extend(numbered.clone().skip(*start).take(CHUNK).filter_map(sort));
+        });
+        for (region, active) in sorted.into_iter().flatten() {
+            self.group_of(region).active.push(active);
         }
     }
 
-    /// Where the pairs are, by their index.
-    pub(super) fn lanes(&self) -> impl Iterator<Item = (u32, Lane)> {
+    fn group_of(&mut self, region: Region) -> &mut Group {
+        let [even, odd, far] = [1, 2, 3].map(|phase| self.phases[phase].start);
+        let index = match region {
+            Region::Stripe(i) => i as usize,
+            Region::Border(i) if i % 2 == 0 => even + i as usize / 2,
+            Region::Border(i) => odd + i as usize / 2,
+            Region::Far => far,
+        };
+        &mut self.groups[index]
+    }
+
+    /// Tells where the pairs of a run of numbers are, batch after batch, as their rows are in memory.
+    pub(super) fn for_each_lane(&self, run: Range<u32>, mut visit: impl FnMut(u32, Lane)) {
         let in_use = (0..).zip(&self.groups).filter(|(_, group)| !group.active.is_empty());
-        in_use.flat_map(|(group, of_group)| {
-            (0..).zip(&of_group.batches).flat_map(move |(batch, of_batch)| {
-                let lanes = (0..).zip(of_batch.pairs).filter(|(_, pair)| *pair != NO_PAIR);
-                lanes.map(move |(lane, pair)| (pair, Lane { group, batch, lane }))
-            })
-        })
+        for (group, of_group) in in_use {
+            for (batch, of_batch) in (0..).zip(&of_group.batches) {
+                for (lane, &pair) in (0..).zip(&of_batch.pairs).filter(|(_, pair)| run.contains(pair)) {
+                    visit(pair, Lane { group, batch, lane });
+                }
+            }
+        }
     }
 
     fn batch_of(&self, at: &Lane) -> (&Group, &Batch) {
@@ -294,7 +330,7 @@ impl Kernel for Prepare<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
         let Group { batches, headers, points, bounces, rollings, .. } = self.group;
-        let contact_of = |pair: u32| self.pairs.details[pair as usize].held.as_deref();
+        let contact_of = |pair: u32| self.pairs.details[pair as usize].held.as_ref();
         bounces.clear();
         rollings.clear();
         for (number, (batch, header)) in (0..).zip(batches.iter().zip(headers)) {

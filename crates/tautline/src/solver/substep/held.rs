@@ -9,26 +9,28 @@ use crate::simd::Row;
 /// The most points that a pair is held at.
 pub(crate) const MOST_POINTS: usize = 4;
 
-/// The name of points that are not there.
-pub(super) const NAMELESS: u32 = 0;
-
-/// The contact of a pair. It is rows of eight numbers because the solver reads it for eight pairs at a time.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+/// The contact of a pair, with as many points as it has. It is rows of eight numbers because the solver reads it for
+/// eight pairs at a time: first the header, then two rows for each point.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Held {
-    /// Normal from a to b (unit, world), friction, restitution, rolling friction (m).
-    pub(super) header: Row,
-    pub(super) points: [HeldPoint; MOST_POINTS],
+    rows: Box<[Row]>,
 }
+
+/// Rows of a point.
+const POINT_ROWS: usize = 2;
 
 /// One point of a contact: a material point of either body.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct HeldPoint {
     /// On a, in its frame (m); the normal multiplier (kg m); on b, in its frame (m); the key's bits.
-    pub(super) anchors: Row,
+    anchors: Row,
     /// What the anchors have slid, to be taken off their distance (m, world); 0; the tangential multiplier (kg m,
     /// world); 0.
-    pub(super) friction: Row,
+    friction: Row,
 }
+
+/// In lanes without a pair.
+static NOTHING: Row = Row::ZERO;
 
 fn vector(row: &Row, at: usize) -> Vec3 {
     Vec3::new(row.0[at], row.0[at + 1], row.0[at + 2])
@@ -39,31 +41,84 @@ fn set_vector(row: &mut Row, at: usize, value: Vec3) {
 }
 
 impl Held {
-    pub(super) const EMPTY: Self = Self {
-        header: Row::ZERO,
-        points: [HeldPoint { anchors: Row::ZERO, friction: Row::ZERO }; MOST_POINTS],
-    };
-
-    pub(crate) fn new(normal: Vec3, touch: Touch) -> Self {
-        let mut held = Self::default();
-        set_vector(&mut held.header, 0, normal);
-        held.header.0[3..6].copy_from_slice(&[touch.friction, touch.restitution, touch.rolling_friction]);
+    pub(crate) fn new(normal: Vec3, touch: Touch, points: &[HeldPoint]) -> Self {
+        let mut held = Self { rows: vec![Row::ZERO; 1 + POINT_ROWS * points.len()].into() };
+        held.set(normal, touch, points);
         held
     }
 
-    /// Whether its numbers are finite, names aside.
-    pub(super) fn is_sound(&self) -> bool {
-        let points =
-            self.points.iter().flat_map(|point| point.anchors.0[..7].iter().chain(&point.friction.0));
-        self.header.0.iter().chain(points).all(|number| number.is_finite())
+    /// Has another contact in its place, in the same memory if it has as many points.
+    pub(super) fn replace(&mut self, normal: Vec3, touch: Touch, points: &[HeldPoint]) {
+        if self.count() == points.len() {
+            self.set(normal, touch, points);
+        } else {
+            *self = Self::new(normal, touch, points);
+        }
+    }
+
+    fn set(&mut self, normal: Vec3, touch: Touch, points: &[HeldPoint]) {
+        let [x, y, z] = normal.to_array();
+        self.rows[0] = Row([x, y, z, touch.friction, touch.restitution, touch.rolling_friction, 0.0, 0.0]);
+        for (rows, point) in self.rows[1..].chunks_exact_mut(POINT_ROWS).zip(points) {
+            rows.copy_from_slice(&[point.anchors, point.friction]);
+        }
+    }
+
+    /// Whether it has so many points, 1 at least, and its numbers are finite, names aside.
+    pub(super) fn is_sound(&self, count: usize) -> bool {
+        let are_finite = |numbers: &[f32]| numbers.iter().all(|number| number.is_finite());
+        self.rows.len() == 1 + POINT_ROWS * count
+            && are_finite(&self.rows[0].0)
+            && self.points().all(|point| are_finite(&point.anchors.0[..7]) && are_finite(&point.friction.0))
+    }
+
+    fn count(&self) -> usize {
+        self.rows.len() / POINT_ROWS
+    }
+
+    /// Normal from a to b (unit, world), friction, restitution, rolling friction (m).
+    #[inline(always)]
+    pub(super) fn header(held: Option<&Self>) -> &Row {
+        held.and_then(|held| held.rows.first()).unwrap_or(&NOTHING)
+    }
+
+    /// The anchors and the friction of point k, see [`HeldPoint`].
+    #[inline(always)]
+    pub(super) fn rows_of_point(held: Option<&Self>, k: usize) -> [&Row; POINT_ROWS] {
+        let rows = held.and_then(|held| held.rows.get(1 + POINT_ROWS * k..1 + POINT_ROWS * (k + 1)));
+        match rows {
+            Some([anchors, friction]) => [anchors, friction],
+            _ => [&NOTHING; POINT_ROWS],
+        }
+    }
+
+    pub(super) fn points(&self) -> impl Iterator<Item = HeldPoint> {
+        let points = self.rows.get(1..).unwrap_or_default().chunks_exact(POINT_ROWS);
+        points.map(|rows| HeldPoint { anchors: rows[0], friction: rows[1] })
+    }
+
+    /// Lets `change` change every point, numbered.
+    pub(super) fn change_points(&mut self, mut change: impl FnMut(usize, &mut HeldPoint)) {
+        let points = self.rows.get_mut(1..).unwrap_or_default().chunks_exact_mut(POINT_ROWS);
+        for (k, rows) in points.enumerate() {
+            let mut point = HeldPoint { anchors: rows[0], friction: rows[1] };
+            change(k, &mut point);
+            rows.copy_from_slice(&[point.anchors, point.friction]);
+        }
     }
 
     pub(crate) fn normal(&self) -> Vec3 {
-        vector(&self.header, 0)
+        vector(&self.rows[0], 0)
+    }
+
+    /// The coefficients that it has between its surfaces.
+    pub(super) fn touch(&self) -> Touch {
+        let [_, _, _, friction, restitution, rolling_friction, ..] = self.rows[0].0;
+        Touch { friction, restitution, rolling_friction }
     }
 
     pub(super) fn friction(&self) -> f32 {
-        self.header.0[3]
+        self.rows[0].0[3]
     }
 }
 
@@ -86,11 +141,6 @@ impl HeldPoint {
 
     pub(super) fn key(&self) -> u32 {
         self.anchors.0[7].to_bits()
-    }
-
-    /// Whether it is one: contacts have room for more points than they need.
-    pub(super) fn is_there(&self) -> bool {
-        self.key() != NAMELESS
     }
 
     /// In kg m.

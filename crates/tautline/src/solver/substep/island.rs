@@ -178,15 +178,14 @@ fn is_driving(body: &Body, particles: &Particles) -> bool {
 
 fn is_loaded(pair: &Pair, detail: &Detail) -> bool {
     let held = detail.held.as_ref().filter(|_| pair.points > 0);
-    held.is_some_and(|held| held.points.iter().any(|point| point.normal_impulse() > 0.0))
+    held.is_some_and(|held| held.points().any(|point| point.normal_impulse() > 0.0))
 }
 
 /// How far apart two rigid bodies are at their nearest points, in m.
 fn gap(scene: Scene<'_>, pair: &Pair, detail: &Detail) -> f32 {
     let Some(held) = &detail.held else { return f32::INFINITY };
     let (a, b) = (scene.placed(pair.a), scene.placed(pair.b));
-    let points = &held.points[..pair.points as usize];
-    let gaps = points.iter().map(|point| {
+    let gaps = held.points().map(|point| {
         let (on_a, on_b) = (a.center + a.axes * point.on_a(), b.center + b.axes * point.on_b());
         (on_b - on_a).dot(held.normal())
     });

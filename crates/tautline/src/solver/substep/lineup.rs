@@ -143,6 +143,17 @@ impl Lineup {
             && self.place_of.iter().enumerate().all(is_place)
     }
 
+    /// Whether a body stands in this place: copies of kinematic bodies stand in others.
+    pub(super) fn is_place_of(&self, place: u32, body: u32) -> bool {
+        self.place_of.get(body as usize) == Some(&place)
+    }
+
+    /// All bodies with their places, by place.
+    pub(super) fn standing(&self) -> impl Iterator<Item = (u32, u32)> {
+        let standing = self.places.iter().copied().zip(0..);
+        standing.filter(|&(body, place)| self.is_place_of(place, body))
+    }
+
     /// The runs of places that are solved side by side.
     pub(super) fn stripes(&self) -> impl Iterator<Item = Range<usize>> {
         self.stripes.iter().map(|stripe| stripe.places.start as usize..stripe.places.end as usize)

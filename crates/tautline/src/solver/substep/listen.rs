@@ -75,12 +75,12 @@ impl Listener {
         }
         // A half-space has no place.
         let place = |body: u32| lineup.moving_place(lineup.place_of[body as usize].min(lineup.ground()));
-        for (pair, at) in groups.lanes() {
+        groups.for_each_lane(0..pairs.pairs.len() as u32, |pair, at| {
             let Pair { a, b, .. } = pairs.pairs[pair as usize];
             if [a, b].iter().any(|&body| bodies[body as usize].reports_contacts()) {
                 self.heard.push(Heard::new(at, pair, [a, b].map(place)));
             }
-        }
+        });
     }
 
     /// Before a substep of `h` (s): how fast those approach each other that have not pressed yet.
@@ -97,9 +97,9 @@ impl Listener {
     pub(super) fn listen(&mut self, groups: &Groups, pairs: &Pairs, crew: &Crew, h: f32) {
         for heard in &mut self.heard {
             let (_, points) = groups.rows(&heard.at);
-            let Some(held) = pairs.details[heard.pair as usize].held.as_deref() else { continue };
+            let Some(held) = pairs.details[heard.pair as usize].held.as_ref() else { continue };
             let [a, b] = heard.places.map(|place| pose(crew, place));
-            for (rows, point) in points.iter().zip(&held.points) {
+            for (rows, point) in points.iter().zip(held.points()) {
                 let impulse = rows.normal_impulse.0[heard.at.lane()] / h;
                 let place = ((a.0 + a.1 * point.on_a()) + (b.0 + b.1 * point.on_b())) * 0.5;
                 heard.impulse += impulse;
@@ -114,7 +114,7 @@ impl Listener {
             let (_, points) = groups.rows(&heard.at);
             let near = |rows: &PointRows| rows.separation.0[heard.at.lane()] <= NEAR;
             let pair = &pairs.pairs[heard.pair as usize];
-            let normal = pairs.details[heard.pair as usize].held.as_deref()?.normal();
+            let normal = pairs.details[heard.pair as usize].held.as_ref()?.normal();
             let normal = if pair.a < pair.b { normal } else { -normal };
             let press = Press {
                 bodies: [pair.a.min(pair.b), pair.a.max(pair.b)],

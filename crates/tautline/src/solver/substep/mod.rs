@@ -29,6 +29,7 @@ mod pull;
 mod read;
 mod rigidity;
 mod rolling;
+mod search;
 mod stack;
 mod sweep;
 mod way;
@@ -43,7 +44,6 @@ use crate::particles::Particles;
 use crate::settings::Settings;
 use crate::simd::{LANES, run};
 
-use boxes::BoxSearch;
 use contact::{Pass, Softness};
 use crew::{Crew, Timing, Track};
 use detect::{Detect, Scene};
@@ -52,6 +52,7 @@ use joint::JointSolver;
 use lineup::{Entry, Lineup, NOBODY, Role};
 use listen::Listener;
 use pairs::Pairs;
+use search::BoxSearch;
 use stack::{Aim, Stacks};
 
 pub(crate) use listen::Press;
@@ -226,12 +227,8 @@ impl RigidSolver {
         self.joints.begin(joints);
         let is_unread = is_first || !std::mem::replace(&mut self.is_read, true);
         self.crew.read(&self.lineup, (bodies, particles), &timing, is_unread);
-        let leaves = self.crew.count_versions(&self.lineup, &mut self.versions);
-        if is_first || leaves {
-            self.find_pairs(bodies, settings);
-        } else {
-            self.end_search();
-        }
+        let leavers = self.crew.count_versions(&self.lineup, &mut self.versions);
+        self.find_pairs(bodies, settings, leavers, is_first);
     }
 
     /// Puts all rigid bodies in their places.

@@ -1,12 +1,13 @@
 //! Pairs of parts of rigid bodies that are near each other, kept from step to step.
 //!
-//! The list is made from boxes that are larger than their bodies, and holds until a body leaves its box: bodies at
-//! rest never do. A pair that is still there when the list is made anew keeps its contact and its multipliers.
+//! The list is made from boxes that are larger than their bodies. It holds until a body leaves its box, which bodies at
+//! rest never do; then the pairs of that body are found anew, or all if there are many such bodies. A pair that is
+//! still there keeps its contact and its multipliers.
 
 use serde::{Deserialize, Serialize};
 
 use super::held::{Held, MOST_POINTS};
-use crate::body::{Body, Substance, Touch};
+use crate::body::{Body, Substance};
 use crate::geometry::manifold::Memory;
 use crate::parallel;
 
@@ -28,10 +29,9 @@ pub(super) struct Detail {
     /// The part of a's shape, and that of b's: of a mesh its triangle.
     pub(super) part_a: u32,
     pub(super) part_b: u32,
-    pub(super) touch: Touch,
     pub(super) memory: Memory,
     /// While it has points.
-    pub(super) held: Option<Box<Held>>,
+    pub(super) held: Option<Held>,
 }
 
 /// Which parts a pair is of. Sorted by this.
@@ -48,6 +48,11 @@ const WORTHWHILE: usize = 4096;
 /// … so many at a time.
 const CHUNK: usize = 1024;
 
+/// Lists grow by this part more than they have to, …
+const GROWTH: usize = 16;
+/// … and are cut back if more than this part of them is not in use.
+const WASTE: usize = 4;
+
 /// A stamp that no versions add up to.
 pub(super) const NEVER: u32 = u32::MAX;
 
@@ -63,8 +68,10 @@ impl Pairs {
     }
 
     /// Makes the list anew from ascending keys. The last one is left in `spare`.
-    pub(super) fn replace(&mut self, keys: &[Key], spare: &mut Self, touch: impl Fn(&Key) -> Touch + Sync) {
+    pub(super) fn replace(&mut self, keys: &[Key], spare: &mut Self) {
         std::mem::swap(self, spare);
+        reserve(&mut self.pairs, keys.len());
+        reserve(&mut self.details, keys.len());
         self.pairs.resize(keys.len(), Pair::default());
         self.details.resize(keys.len(), Detail::default());
         let chunk = if parallel::is_worthwhile(keys.len(), WORTHWHILE) { CHUNK } else { keys.len().max(1) };
@@ -80,7 +87,53 @@ impl Pairs {
             (pairs, details) = (other_pairs, other_details);
             moves.push(Move { keys, old: (old_pairs, old_details), new: (new_pairs, new_details) });
         }
-        parallel::for_each(&mut moves, true, |task| task.run(&touch));
+        parallel::for_each(&mut moves, true, |task| task.run());
+    }
+
+    /// Makes the list of the bodies in `is_listed` anew from their ascending keys; all others stay.
+    pub(super) fn replace_some(&mut self, is_listed: &[bool], keys: &[Key]) {
+        let Self { pairs, details } = self;
+        let is_listed = |pair: &Pair| is_listed[pair.a as usize] || is_listed[pair.b as usize];
+        let mut is_old = vec![false; keys.len()];
+        let mut kept = 0;
+        for index in 0..pairs.len() {
+            if is_listed(&pairs[index]) {
+                match keys.binary_search(&pairs[index].key(&details[index])) {
+                    Ok(key) => is_old[key] = true,
+                    Err(_) => continue,
+                }
+            }
+            if kept < index {
+                pairs.swap(kept, index);
+                details.swap(kept, index);
+            }
+            kept += 1;
+        }
+        pairs.truncate(kept);
+        details.truncate(kept);
+        let new = keys.iter().zip(is_old).filter(|(_, is_old)| !is_old).map(|(key, _)| key);
+        self.insert(new.collect());
+    }
+
+    /// Adds ascending keys that are not there yet.
+    fn insert(&mut self, mut keys: Vec<&Key>) {
+        let (mut from, mut to) = (self.pairs.len(), self.pairs.len() + keys.len());
+        reserve(&mut self.pairs, to);
+        reserve(&mut self.details, to);
+        self.pairs.resize(to, Pair::default());
+        self.details.resize(to, Detail::default());
+        // From the end on, until nothing is left to be moved.
+        while let Some(key) = keys.last() {
+            to -= 1;
+            if from > 0 && self.key(from - 1) > **key {
+                from -= 1;
+                self.pairs.swap(from, to);
+                self.details.swap(from, to);
+            } else {
+                (self.pairs[to], self.details[to]) = begin(key);
+                keys.pop();
+            }
+        }
     }
 
     /// Where a key is, or would be.
@@ -103,13 +156,13 @@ impl Pairs {
     pub(super) fn is_valid(&self, bodies: &[Body]) -> bool {
         let is_sound = |(pair, detail): (&Pair, &Detail)| {
             let exist = (pair.a.max(pair.b) as usize) < bodies.len();
-            let is_held = detail.held.as_ref().is_some_and(|held| held.is_sound());
+            let is_sound = |held: &Held| held.is_sound(pair.points as usize) && held.touch().is_sound();
+            let is_held = detail.held.as_ref().is_some_and(is_sound);
             exist
                 && has_part(&bodies[pair.a as usize], detail.part_a)
                 && has_part(&bodies[pair.b as usize], detail.part_b)
                 && pair.points as usize <= MOST_POINTS
                 && (pair.points == 0 || is_held)
-                && detail.touch.is_sound()
         };
         self.pairs.len() == self.details.len()
             && self.pairs.iter().zip(&self.details).all(is_sound)
@@ -143,7 +196,7 @@ struct Move<'a> {
 
 impl Move<'_> {
     /// Moves what is in both lists, and begins what is new.
-    fn run(&mut self, touch: impl Fn(&Key) -> Touch) {
+    fn run(&mut self) {
         let mut old = self.old.0.iter().zip(self.old.1.iter_mut()).peekable();
         for (key, (pair, detail)) in self.keys.iter().zip(self.new.0.iter_mut().zip(self.new.1.iter_mut())) {
             while old.next_if(|(pair, detail)| pair.key(detail) < *key).is_some() {}
@@ -152,13 +205,30 @@ impl Move<'_> {
                     *pair = *old_pair;
                     *detail = Detail { held: old_detail.held.take(), ..*old_detail };
                 }
-                None => {
-                    let Key { a, b, part_a, part_b } = *key;
-                    *pair = Pair { a, b, stamp: NEVER, points: 0 };
-                    *detail = Detail { part_a, part_b, touch: touch(key), ..Detail::default() };
-                }
+                None => (*pair, *detail) = begin(key),
             }
         }
+    }
+}
+
+/// A pair that is new.
+fn begin(key: &Key) -> (Pair, Detail) {
+    let Key { a, b, part_a, part_b } = *key;
+    (Pair { a, b, stamp: NEVER, points: 0 }, Detail { part_a, part_b, ..Detail::default() })
+}
+
+/// Room for so many, and not, as vectors grow by themselves, for up to twice as many.
+pub(super) fn reserve<T>(items: &mut Vec<T>, count: usize) {
+    if items.capacity() < count {
+        items.reserve_exact(count + count / GROWTH - items.len());
+    }
+}
+
+/// Gives back what a list has too much of.
+pub(super) fn fit<T>(items: &mut Vec<T>) {
+    let count = items.len();
+    if items.capacity() > count + count / WASTE {
+        items.shrink_to(count + count / GROWTH);
     }
 }
 
@@ -178,5 +248,47 @@ fn has_part(body: &Body, part: u32) -> bool {
         },
         Substance::HalfSpace(_) => part == 0,
         Substance::Truss { .. } | Substance::Deformable(_) => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn keys(count: usize) -> impl Strategy<Value = Vec<Key>> {
+        let key = (0..8_u32, 0..8_u32, 0..2_u32).prop_map(|(a, b, part_b)| Key { a, b, part_a: 0, part_b });
+        prop::collection::btree_set(key, 0..count).prop_map(|keys| keys.into_iter().collect())
+    }
+
+    /// A list of these, of which each has a stamp of its own.
+    fn list(keys: &[Key]) -> Pairs {
+        let mut list = Pairs::default();
+        list.replace(keys, &mut Pairs::default());
+        (0..).zip(&mut list.pairs).for_each(|(stamp, pair)| pair.stamp = stamp);
+        list
+    }
+
+    proptest! {
+        /// However a list is made anew, what was in it is as it was, and the rest begins.
+        #[test]
+        fn what_stays_keeps_its_contact(old in keys(60), new in keys(60), listed in prop::collection::vec(any::<bool>(), 8)) {
+            let is_listed = |key: &Key| listed[key.a as usize] || listed[key.b as usize];
+            let stays = |key: &&Key| !is_listed(key);
+            let mut expected: Vec<Key> = old.iter().filter(stays).chain(new.iter().filter(|key| is_listed(key))).copied().collect();
+            expected.sort_unstable();
+            let listed_keys: Vec<Key> = new.iter().filter(|key| is_listed(key)).copied().collect();
+            let mut some = list(&old);
+            some.replace_some(&listed, &listed_keys);
+            let mut all = list(&old);
+            all.replace(&expected, &mut Pairs::default());
+            prop_assert_eq!(&some, &all);
+            for (index, key) in expected.iter().enumerate() {
+                prop_assert_eq!(some.key(index), *key);
+                let stamp = old.binary_search(key).map_or(NEVER, |stamp| stamp as u32);
+                prop_assert_eq!(some.pairs[index].stamp, stamp);
+            }
+        }
     }
 }

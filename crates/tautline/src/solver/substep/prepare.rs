@@ -51,31 +51,31 @@ impl Poses<'_> {
     }
 }
 
-/// In lanes without a pair.
-static NOTHING: Held = Held::EMPTY;
-
 /// The contacts of a batch.
 #[inline(always)]
-fn held<'a>(batch: &Batch, contact_of: impl Fn(u32) -> Option<&'a Held>) -> [&'a Held; LANES] {
-    batch.pairs.map(|pair| if pair == NO_PAIR { &NOTHING } else { contact_of(pair).unwrap_or(&NOTHING) })
+fn held<'a>(batch: &Batch, contact_of: impl Fn(u32) -> Option<&'a Held>) -> [Option<&'a Held>; LANES] {
+    let mut held = [None; LANES];
+    for (held, &pair) in held.iter_mut().zip(&batch.pairs) {
+        *held = if pair == NO_PAIR { None } else { contact_of(pair) };
+    }
+    held
 }
 
 #[inline(always)]
-fn headers_of<'a>(held: &[&'a Held; LANES]) -> [&'a Row; LANES] {
-    let mut rows = [&NOTHING.header; LANES];
+fn headers_of<'a>(held: &[Option<&'a Held>; LANES]) -> [&'a Row; LANES] {
+    let mut rows = [Held::header(None); LANES];
     for lane in 0..LANES {
-        rows[lane] = &held[lane].header;
+        rows[lane] = Held::header(held[lane]);
     }
     rows
 }
 
 /// The anchors and the friction of point k.
 #[inline(always)]
-fn rows_of<'a>(held: &[&'a Held; LANES], k: usize) -> ([&'a Row; LANES], [&'a Row; LANES]) {
-    let (mut anchors, mut friction) = ([&NOTHING.header; LANES], [&NOTHING.header; LANES]);
+fn rows_of<'a>(held: &[Option<&'a Held>; LANES], k: usize) -> ([&'a Row; LANES], [&'a Row; LANES]) {
+    let (mut anchors, mut friction) = ([Held::header(None); LANES], [Held::header(None); LANES]);
     for lane in 0..LANES {
-        let point = &held[lane].points[k];
-        (anchors[lane], friction[lane]) = (&point.anchors, &point.friction);
+        [anchors[lane], friction[lane]] = Held::rows_of_point(held[lane], k);
     }
     (anchors, friction)
 }
@@ -186,10 +186,11 @@ fn with_tangents<L: Lanes>(n: Vec3x8<L>) -> [Vec3x8<L>; 3] {
 /// Keeps the multipliers of a batch for the next step, and lets the anchors of what has slid follow.
 pub(super) fn keep(lane: usize, header: &HeaderRows, points: &[PointRows], held: &mut Held) {
     let tangent = |axis: usize, factor: f32| column(&header.tangents[axis], lane) * factor;
-    for (point, rows) in held.points.iter_mut().zip(points) {
+    held.change_points(|k, point| {
+        let rows = &points[k];
         let impulses = [0, 1].map(|axis| rows.tangent_impulses[axis].0[lane]);
         let tangential = tangent(0, impulses[0]) + tangent(1, impulses[1]);
         let slip = point.slip() - tangent(0, rows.slid[0].0[lane]) - tangent(1, rows.slid[1].0[lane]);
         point.continue_from(rows.normal_impulse.0[lane], tangential, slip);
-    }
+    });
 }

@@ -157,7 +157,7 @@ fn track<L: Lanes>(timing: &Timing, block: &Block, motion: Motion<L>, track: &mu
         }
     }
     let away = block.moved_squared::<L>(&track.boxed.center, &track.boxed.axes).sqrt();
-    track.leaves |= (away + need).greater(L::load(&track.room)).bits() != 0;
+    track.leaves = (away + need).greater(L::load(&track.room)).bits();
     turning
 }
 

@@ -9,10 +9,7 @@ mod planes;
 mod round;
 mod same_bits;
 mod shapes;
-mod speed;
 mod surfaces;
-
-use glam::Mat3;
 
 use super::*;
 use crate::shape::Face;

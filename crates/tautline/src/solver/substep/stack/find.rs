@@ -165,10 +165,10 @@ fn fastest(contacts: &[Touch], pairs: &Pairs, (crew, substeps): (&Crew, f32)) ->
 
 /// Whether nothing bore the bodies yet, or some contact is about to slide or bears at a part of its points only.
 fn is_delicate(contacts: &[Touch], pairs: &Pairs) -> bool {
-    let held = || contacts.iter().filter_map(|(index, _)| pairs.details[*index as usize].held.as_deref());
-    let bears = |held: &Held| held.points.iter().any(|point| point.normal_impulse() > 0.0);
+    let held = || contacts.iter().filter_map(|(index, _)| pairs.details[*index as usize].held.as_ref());
+    let bears = |held: &Held| held.points().any(|point| point.normal_impulse() > 0.0);
     let is_strained = |held: &Held| {
-        held.points.iter().filter(|point| point.is_there()).any(|point| {
+        held.points().any(|point| {
             let (normal, friction) = (point.normal_impulse(), point.tangent_impulse().length());
             normal == 0.0 || friction > STRAINED * held.friction() * normal
         })

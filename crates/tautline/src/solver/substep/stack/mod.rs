@@ -16,6 +16,7 @@ mod working_set;
 
 use crate::parallel;
 
+use super::batch::NO_PAIR;
 use super::contact::Softness;
 use super::crew::Crew;
 use super::elimination::Part;
@@ -68,7 +69,8 @@ impl Stacks {
         if found.is_empty() {
             return;
         }
-        let mut lanes: Vec<(u32, Lane)> = groups.lanes().collect();
+        let mut lanes: Vec<(u32, Lane)> = Vec::new();
+        groups.for_each_lane(0..NO_PAIR, |pair, lane| lanes.push((pair, lane)));
         lanes.sort_unstable_by_key(|(pair, _)| *pair);
         let stacks = found.iter().map(|found| Stack::new(found, &lanes, groups, crew));
         self.stacks.extend(stacks.filter(|stack| stack.points().all(|point| point.depth() <= DEEP)));
