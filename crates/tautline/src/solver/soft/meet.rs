@@ -9,7 +9,7 @@
 
 use super::patch::Cone;
 use super::points::{Coordinates, Points, get};
-use super::tile::{Bounds, Tile, inside};
+use super::tile::{Bounds, MOST_EIGHTS, Tile, inside};
 use crate::constraint::Stick;
 use crate::simd::{Lanes, Vec3x8};
 use glam::Vec3;
@@ -17,11 +17,11 @@ use glam::Vec3;
 /// Tiles that bend less than this (75°) together do not touch each other. Its cosine.
 const SMOOTH: f32 = 0.258_819_05;
 /// How far beyond the thickness pairs are listed, in thicknesses.
-const MARGIN: f32 = 0.5;
+const MARGIN: f32 = 0.25;
 /// What was too close is moved apart by this share of the distance in a small step, if that is more than else: cloth that
 /// has come through itself is not to stay there.
 const HURRY: f32 = 0.05;
-/// Motion until the next look is expected to be as much as that since the last, times this.
+/// Motion until the next look is expected to be as fast as that since the last, times this.
 const HASTE: f32 = 1.5;
 
 /// A cloth among others.
@@ -93,6 +93,13 @@ pub(super) struct Meetings {
     spare: Vec<List>,
 }
 
+/// Eight particles from a place on.
+#[derive(Clone, Copy)]
+struct Eight<L> {
+    place: usize,
+    at: Vec3x8<L>,
+}
+
 /// The pairs of two tiles.
 #[derive(Debug, Clone, Default)]
 struct List {
@@ -102,6 +109,8 @@ struct List {
     distance: f32,
     friction: f32,
     pairs: Vec<[u32; 2]>,
+    /// Those of them that may come too close until the next look.
+    near: Vec<[u32; 2]>,
 }
 
 impl Meetings {
@@ -173,9 +182,9 @@ impl Meetings {
         }
     }
 
-    /// Brings all lists up to date. Tiles have been.
+    /// Brings all lists up to date. Tiles have been. `ahead` is how long it is until the next look, in times since the last.
     #[inline(always)]
-    pub(super) fn look<L: Lanes>(&mut self, points: &Points) {
+    pub(super) fn look<L: Lanes>(&mut self, points: &Points, ahead: f32) {
         let mut old = std::mem::take(&mut self.lists).into_iter().peekable();
         let mut lists = Vec::new();
         for a in 0..self.tiles.len() {
@@ -192,10 +201,12 @@ impl Meetings {
                 };
                 list.moved += moved;
                 (list.distance, list.friction) = (distance, friction);
-                if list.moved + HASTE * moved > MARGIN * distance {
+                let soon = HASTE * ahead * moved;
+                if list.moved + soon > MARGIN * distance {
                     list.moved = 0.0;
                     self.list_pairs::<L>(points, &mut list);
                 }
+                list.keep_near(points, distance + soon);
                 lists.push(list);
             }
         }
@@ -230,14 +241,16 @@ impl Meetings {
     fn list_pairs<L: Lanes>(&self, points: &Points, list: &mut List) {
         let [a, b] = list.tiles.map(|tile| tile as usize);
         let reach = list.distance * (1.0 + MARGIN);
+        let reach_squared = L::splat(reach * reach);
         let is_one = self.member_of[a] == self.member_of[b];
         let exempt = is_one.then(|| &self.members[self.member_of[a] as usize].exempt);
         let (near_a, near_b) = (self.boxes[a].grown(reach), self.boxes[b].grown(reach));
         list.pairs.clear();
-        let (mut others, mut count) = ([0_usize; super::tile::MOST_EIGHTS], 0);
+        let (mut others, mut count) = ([Eight { place: 0, at: Vec3x8::<L>::zero() }; MOST_EIGHTS], 0);
         for &place in &self.tiles[b].eights {
             if inside::<L>(points, place as usize, &near_a) != 0 {
-                others[count] = place as usize;
+                let at = Vec3x8::read(&points.position, place as usize);
+                others[count] = Eight { place: place as usize, at };
                 count += 1;
             }
         }
@@ -246,28 +259,35 @@ impl Meetings {
             while lanes != 0 {
                 let place = first as usize + lanes.trailing_zeros() as usize;
                 lanes &= lanes - 1;
-                for &other in &others[..count] {
-                    self.list_near::<L>(points, place, (other, a == b), (reach, exempt), &mut list.pairs);
+                let at = Vec3x8::splat(points.at(place));
+                for other in &others[..count] {
+                    // Where there is no particle is near none.
+                    let is_near = reach_squared.greater((other.at - at).length_squared());
+                    if is_near.bits() != 0 {
+                        self.list_near::<L>(
+                            place,
+                            (other.place, is_near.bits()),
+                            a == b,
+                            exempt,
+                            &mut list.pairs,
+                        );
+                    }
                 }
             }
         }
     }
 
-    /// Those of eight particles that are near one, and not its neighbours in the material.
+    /// Lists those of eight particles whose bits are set, as near one, unless they are its neighbours in the material.
     #[inline(always)]
     fn list_near<L: Lanes>(
         &self,
-        points: &Points,
         place: usize,
-        (others, is_same_tile): (usize, bool),
-        (reach, exempt): (f32, Option<&Exempt>),
+        (others, mut near): (usize, u32),
+        is_same_tile: bool,
+        exempt: Option<&Exempt>,
         out: &mut Vec<[u32; 2]>,
     ) {
-        let at = Vec3x8::<L>::splat(points.at(place));
-        let away = Vec3x8::read(&points.position, others) - at;
-        let is_near = L::splat(reach * reach).greater(away.length_squared());
-        let mut near = is_near.and(points.are_there::<L>(others)).bits();
-        if let Some(Exempt::Within(exempt)) = exempt.filter(|_| near != 0) {
+        if let Some(Exempt::Within(exempt)) = exempt {
             let apart = Vec3x8::<L>::read(&self.material, others) - Vec3x8::splat(get(&self.material, place));
             near &= apart.length_squared().greater(L::splat(*exempt * *exempt)).bits();
         }
@@ -290,10 +310,21 @@ impl Meetings {
     /// Moves all pairs apart that are too close, with friction; what was too close before by `recovery` (m) at most.
     pub(super) fn part(&self, points: &mut Points, recovery: f32) {
         for list in &self.lists {
-            for &[a, b] in &list.pairs {
+            for &[a, b] in &list.near {
                 part_pair(points, [a as usize, b as usize], (list.distance, recovery), list.friction);
             }
         }
+    }
+}
+
+impl List {
+    /// Finds the pairs that are no further apart than this, in m.
+    fn keep_near(&mut self, points: &Points, reach: f32) {
+        self.near.clear();
+        let is_near = |&&[a, b]: &&[u32; 2]| {
+            (points.at(b as usize) - points.at(a as usize)).length_squared() < reach * reach
+        };
+        self.near.extend(self.pairs.iter().filter(is_near));
     }
 }
 

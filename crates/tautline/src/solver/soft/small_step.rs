@@ -207,7 +207,9 @@ impl SoftSolver {
                 number += 1;
             }
         }
-        self.meetings.look::<L>(&self.points);
+        // What has moved since the step began has in its first look moved for one small step only.
+        let ahead = if self.done == 0 { LOOK_EVERY as f32 } else { 1.0 };
+        self.meetings.look::<L>(&self.points, ahead);
     }
 
     #[inline(always)]

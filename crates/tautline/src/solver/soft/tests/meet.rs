@@ -56,7 +56,7 @@ impl Scene {
             };
             self.meetings.update_tile::<L>(tile, &self.points, cone);
         }
-        self.meetings.look::<L>(&self.points);
+        self.meetings.look::<L>(&self.points, 1.0);
     }
 
     fn drift(&mut self, step: usize) {
@@ -126,7 +126,7 @@ impl Kernel for Look {
 
     #[inline(always)]
     fn run<L: Lanes>(mut self) -> Scene {
-        self.0.look::<L>(self.1);
+        self.0.look::<L>(self.1, 1.0);
         self.0
     }
 }
