@@ -44,10 +44,10 @@ fn net(inner: u32) -> Rope {
 }
 
 fn drop_on(inner: u32, shape: Shape, mass: f32) -> (World, BodyHandle, BodyHandle) {
-    let mut world = World::new(Settings::default()).unwrap();
+    let mut world = World::new(Settings { damping: 1.0, ..Settings::default() }).unwrap();
     let net = world.add(net(inner)).unwrap();
-    let body = world.add(solid(shape).mass(mass).position(Vec3::new(0.05, 3.2, 0.08))).unwrap();
-    run(&mut world, 4.0);
+    let body = world.add(solid(shape).mass(mass).position(Vec3::new(0.05, 2.8, 0.08))).unwrap();
+    run(&mut world, 6.0);
     (world, net, body)
 }
 
@@ -58,7 +58,6 @@ fn a_net_catches_what_is_larger_than_its_mesh() {
         let (world, net, body) = drop_on(1, shape, 30.0);
         let at = center(&world, body);
         let speed = world.body(body).unwrap().velocity().length();
-        eprintln!("net: {at} {speed} {}", stretch(&world, net));
         assert!(at.y > 1.0 && at.y < 2.6, "it is at {at}");
         assert!(speed < 0.5, "it moves at {speed} m/s");
         assert!(stretch(&world, net) < 0.08, "{}", stretch(&world, net));
