@@ -12,7 +12,7 @@ use super::piece::Piece;
 use super::points::Points;
 use super::solid::Solid;
 use super::touch::Touch;
-use crate::attachment::{Attachments, End};
+use crate::attachment::{Attached, Attachments, End};
 use crate::body::Body;
 use crate::particles::Particles;
 
@@ -91,7 +91,7 @@ impl Ties {
         particles: &Particles,
     ) -> Self {
         let hold = |end: End| Hold::of(end, pieces, bodies, particles);
-        let tie = |(attachment, attached): (usize, &crate::attachment::Attached)| Tie {
+        let tie = |(attachment, attached): (usize, &Attached)| Tie {
             attachment,
             ends: attached.ends.map(hold),
             compliance: attached.compliance(),
@@ -137,15 +137,10 @@ impl Ties {
 
     /// Lets the particles that are held to a solid through it.
     pub(super) fn exempt(&self, touches: &mut [Touch]) {
-        for tie in &self.ties {
-            for [solid, particles] in [[tie.ends[0], tie.ends[1]], [tie.ends[1], tie.ends[0]]] {
-                let Hold::Solid { number, .. } = solid else { continue };
-                for (place, _) in particles.held() {
-                    touches
-                        .iter_mut()
-                        .filter(|touch| touch.solid as usize == number)
-                        .for_each(|touch| touch.exempt(place));
-                }
+        for [particles, solid] in self.ties.iter().filter_map(Tie::carried) {
+            let Hold::Solid { number, .. } = solid else { continue };
+            for touch in touches.iter_mut().filter(|touch| touch.solid as usize == number) {
+                particles.held().for_each(|(place, _)| touch.exempt(place));
             }
         }
     }
@@ -158,75 +153,53 @@ impl Ties {
     }
 
     /// Begins a small step, once all has moved on.
-    pub(super) fn begin(&mut self) {
+    fn begin(&mut self) {
         self.ties.iter_mut().for_each(|tie| tie.multiplier = Vec3::ZERO);
     }
 
     /// Lets particles weigh as much as what is firmly attached to them.
-    pub(super) fn load(
-        &mut self,
-        points: &mut Points,
-        lightened: &mut [f32],
-        solids: &[Solid<'_>],
-        left: f32,
-    ) {
+    fn load(&mut self, points: &mut Points, lightened: &mut [f32], solids: &[Solid<'_>], left: f32) {
         self.loads.clear();
-        for (number, tie) in self.ties.iter().enumerate().filter(|(_, tie)| tie.compliance == 0.0) {
-            for [particles, other] in [[tie.ends[0], tie.ends[1]], [tie.ends[1], tie.ends[0]]] {
-                if let Hold::Places { .. } = other {
+        for (tie, stiff) in self.ties.iter().enumerate().filter(|(_, tie)| tie.compliance == 0.0) {
+            let Some([particles, carried]) = stiff.carried() else { continue };
+            let meeting = particles.at(points, solids, left).0;
+            let mobility = carried.most_mobility(meeting, solids, left) * stiff.company;
+            for (place, weight) in particles.held() {
+                let inverse_mass = points.inverse_mass[place];
+                if inverse_mass == 0.0 {
                     continue;
                 }
-                let mobility = other.most_mobility(particles.at(points, solids, left).0, solids, left);
-                for (place, weight) in particles.held() {
-                    let inverse_mass = points.inverse_mass[place];
-                    if inverse_mass == 0.0 {
-                        continue;
-                    }
-                    let own = 1.0 / inverse_mass;
-                    let mass = match mobility {
-                        0.0 => weight * IMMOVABLE * own,
-                        _ => weight * (1.0 / (mobility * tie.company)).min(HEAVIEST * own),
-                    };
-                    let scale = own / (own + mass);
-                    let (light, displacement) = (lightened[place], points.motion(place));
-                    points.inverse_mass[place] *= scale;
-                    lightened[place] *= scale;
-                    self.loads.push(Load {
-                        tie: number,
-                        place,
-                        mass,
-                        inverse_mass,
-                        lightened: light,
-                        displacement,
-                    });
-                }
+                let most = if mobility > 0.0 { HEAVIEST } else { IMMOVABLE };
+                let mass = weight * (1.0 / mobility).min(most / inverse_mass);
+                let displacement = points.motion(place);
+                self.loads.push(Load {
+                    tie,
+                    place,
+                    mass,
+                    inverse_mass,
+                    lightened: lightened[place],
+                    displacement,
+                });
+                let scale = 1.0 / (1.0 + mass * inverse_mass);
+                points.inverse_mass[place] *= scale;
+                lightened[place] *= scale;
             }
         }
     }
 
     /// Takes the load off particles, and moves what they carried as they have been moved.
-    pub(super) fn unload(
-        &mut self,
-        points: &mut Points,
-        lightened: &mut [f32],
-        solids: &mut [Solid<'_>],
-        left: f32,
-    ) {
+    fn unload(&mut self, points: &mut Points, lightened: &mut [f32], solids: &mut [Solid<'_>], left: f32) {
         // In reverse, since a particle may carry several.
         for load in self.loads.iter().rev() {
             points.inverse_mass[load.place] = load.inverse_mass;
             lightened[load.place] = load.lightened;
-            let impulse = (points.motion(load.place) - load.displacement) * load.mass;
             let tie = &mut self.ties[load.tie];
-            let [a, b] = tie.ends;
-            // What the first end gets from the second is what the second loses.
-            if let Hold::Places { .. } = a {
-                tie.total -= impulse;
-                b.push(points, solids, impulse, points.at(load.place), left);
-            } else {
-                tie.total += impulse;
-                a.push(points, solids, impulse, points.at(load.place), left);
-            }
+            let Some([_, carried]) = tie.carried() else { continue };
+            let impulse = (points.motion(load.place) - load.displacement) * load.mass;
+            carried.push(points, solids, impulse, points.at(load.place), left);
+            // What is carried is the first end or the second.
+            let is_first = !matches!(tie.ends[0], Hold::Places { .. });
+            tie.total += if is_first { impulse } else { -impulse };
         }
     }
 
@@ -253,6 +226,14 @@ impl SoftSolver {
 }
 
 impl Tie {
+    /// The particles that carry, and what is solid or still and hangs on them; `None` if both ends are of cloth or rope.
+    fn carried(&self) -> Option<[Hold; 2]> {
+        match self.ends {
+            [Hold::Places { .. }, Hold::Places { .. }] => None,
+            [particles @ Hold::Places { .. }, carried] | [carried, particles] => Some([particles, carried]),
+        }
+    }
+
     /// The body that it hangs on.
     fn body(&self) -> Option<usize> {
         self.ends.iter().find_map(|end| match end {
