@@ -61,7 +61,8 @@
 //! 1. A [`Shape`] is made from numbers, points or a [`TriMesh`](mesh::TriMesh), which comes from [`mesh::primitives`]
 //!    or is your own. For a truss [`Truss::from_mesh`] takes the mesh. Many bodies share one.
 //! 2. A builder ([`RigidBody`], [`TrussBody`], [`Cloth`], [`Rope`], [`HalfSpace`]) says where a body starts and what it
-//!    is made of. [`World::add`] checks it and gives a [`BodyHandle`]. [`World::add_joint`] connects rigid bodies.
+//!    is made of. [`World::add`] checks it and gives a [`BodyHandle`]. [`World::add_joint`] connects rigid bodies,
+//!    [`World::attach`] cloth and rope to anything.
 //! 3. [`World::step`] moves everything. For rigid bodies it finds contacts once, and solves joints and contacts in each
 //!    substep; for particles held by sticks it integrates, finds what touches, separates and relaxes in each substep.
 //!    A [`StepReport`] says what that took. In between, forces, impulses, poses and velocities can be set, and a body
@@ -93,6 +94,7 @@
     )
 )]
 
+mod attachment;
 pub mod body;
 mod collision;
 pub mod constraint;
@@ -117,6 +119,7 @@ mod step;
 mod view;
 mod world;
 
+pub use attachment::{Anchor, Attachment, AttachmentHandle, AttachmentView};
 pub use body::{
     BodyKind, Cloth, CollisionGroups, Combine, HalfSpace, Motion, RigidBody, Rope, Surface, Truss, TrussBody,
 };

@@ -20,6 +20,11 @@ pub struct BodyHandle(Key);
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct JointHandle(Key);
 
+/// Names an attachment of a world, also after others have been removed. The handle of an attachment that was removed, by
+/// itself or with one of its bodies, is refused.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub struct AttachmentHandle(Key);
+
 macro_rules! handles {
     ($($handle:ident),*) => {
         $(impl From<Key> for $handle {
@@ -34,7 +39,7 @@ macro_rules! handles {
         })*
     };
 }
-handles!(BodyHandle, JointHandle);
+handles!(BodyHandle, JointHandle, AttachmentHandle);
 
 /// Which handle names which item of a list.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]

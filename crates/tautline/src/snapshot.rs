@@ -5,6 +5,7 @@ use std::sync::{Arc, OnceLock};
 
 use serde::{Deserialize, Serialize};
 
+use crate::attachment::Attachments;
 use crate::body::{Body, Substance, Truss};
 use crate::collision::PairCache;
 use crate::error::Error;
@@ -19,7 +20,7 @@ use crate::solver::substep::{Kept, RigidSolver};
 use crate::world::{Grabs, Scratch, World};
 
 const MAGIC: [u8; 8] = *b"tautline";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// Everything but the trusses and shapes, which bodies share: each is stored once, and by its number for each body.
 #[derive(Serialize, Deserialize)]
@@ -35,6 +36,7 @@ struct Stored {
     pairs: PairCache,
     grabs: Grabs,
     joints: Joints,
+    attachments: Attachments,
     rigid: Kept,
     contacts: Contacts,
     time: f64,
@@ -64,6 +66,7 @@ impl World {
             pairs: self.pairs.clone(),
             grabs: self.grabs.clone(),
             joints: self.joints.clone(),
+            attachments: self.attachments.clone(),
             rigid: self.rigid.kept(),
             contacts: self.contacts.clone(),
             time: self.time,
@@ -149,11 +152,14 @@ impl Stored {
         if !self.joints.is_valid(self.bodies.len()) {
             return Err(refuse("its joints disagree with its bodies"));
         }
+        if !self.attachments.is_valid(&self.bodies) {
+            return Err(refuse("its attachments disagree with its bodies"));
+        }
         if !self.contacts.is_valid(self.bodies.len()) {
             return Err(refuse("its contact events disagree with its bodies"));
         }
-        let Self { settings, particles, bodies, slots, pairs, grabs, joints, rigid, contacts, time, .. } =
-            self;
+        let Self { settings, particles, bodies, slots, pairs, grabs, joints, attachments, .. } = self;
+        let (rigid, contacts, time) = (self.rigid, self.contacts, self.time);
         let rigid = RigidSolver::restore(rigid, &bodies, &joints)
             .ok_or_else(|| refuse("its contacts disagree with its bodies"))?;
         let (index, scratch) = (OnceLock::new(), Scratch::default());
@@ -165,6 +171,7 @@ impl Stored {
             slots,
             pairs,
             joints,
+            attachments,
             rigid,
             soft,
             contacts,

@@ -40,6 +40,7 @@ impl World {
         let mut watch = Stopwatch::start(clock);
         let h = dt / self.settings.substeps as f32;
         self.wake_around_soft();
+        self.wake_attached();
         self.begin_rigid(h, &mut report, &mut watch);
         let cloth = self.settings.cloth;
         let has_matter = self.bodies.iter().any(|body| body.is_relaxed(cloth));
@@ -64,6 +65,7 @@ impl World {
         self.rest_grabs(&lent);
         self.finish_rigid(h, &mut report);
         self.finish_soft(h, &mut report);
+        self.note_attachments(h);
         watch.lap(Phase::Integrate);
         self.rest(dt);
         self.particles.clear_forces();
@@ -76,7 +78,8 @@ impl World {
     /// Reads cloth and rope, if they move in small steps.
     fn begin_soft(&mut self, h: f32) {
         if self.settings.cloth == ClothSolver::SmallSteps {
-            self.soft.begin(&self.bodies, &self.particles, &self.settings, h);
+            let Self { soft, bodies, particles, attachments, settings, .. } = self;
+            soft.begin((bodies, particles, attachments), settings, h);
         } else {
             self.soft.clear();
         }
@@ -275,6 +278,7 @@ impl World {
     fn rest(&mut self, dt: f32) {
         let cloth = self.settings.cloth;
         self.soft.note_rest(&mut self.bodies, &self.particles, dt);
+        self.attachments.share_rest(&mut self.bodies, &self.particles);
         match self.settings.sleep {
             Some(sleep) => {
                 let Self { bodies, particles, joints, rigid, soft, scratch, .. } = self;

@@ -6,14 +6,15 @@ use std::f32::consts::PI;
 use tautline::mesh::TriMesh;
 use tautline::{BodyHandle, Error, Quat, Vec3, World};
 
+use super::attachment::{anchor, strength};
 use super::joint::joint;
 use super::rigid::{rigid_body, surface, truss_body};
 use super::shape::{Make, Solids, triangles, unread};
 use super::wall;
 use super::{Look, Part};
 use crate::document::{
-    Body, BodyRef, Cloth, Color, HalfSpace, Joint, Motion, Pin, Rigid, Room, Rope, RopeEnd, Rotation,
-    SheetPlace, Surface, Thread,
+    Anchor, Attachment, Body, BodyRef, Cloth, Color, HalfSpace, Joint, Motion, Pin, Rigid, Room, Rope,
+    RopeEnd, Rotation, SheetPlace, Surface, Thread,
 };
 use crate::render::palette;
 
@@ -37,8 +38,8 @@ pub(super) struct Builder {
     world: World,
     parts: Vec<Part>,
     solids: Solids,
-    /// The rigid bodies by all that the document can call them.
-    rigid: BTreeMap<BodyRef, BodyHandle>,
+    /// The bodies by all that the document can call them, with their indices in it; rooms are many.
+    bodies: BTreeMap<BodyRef, (usize, BodyHandle)>,
     names: BTreeSet<String>,
     /// How many bodies have a colour from the palette.
     colored: usize,
@@ -50,7 +51,7 @@ impl Builder {
             world,
             parts: Vec::new(),
             solids: Solids::new(has_trusses),
-            rigid: BTreeMap::new(),
+            bodies: BTreeMap::new(),
             names: BTreeSet::new(),
             colored: 0,
         }
@@ -60,15 +61,21 @@ impl Builder {
     pub(super) fn add(&mut self, index: usize, body: &Body) -> Result<(), Refusal> {
         let name = body.name().map_or_else(|| format!("{} {index}", body.kind()), str::to_owned);
         match body {
-            Body::Rigid(rigid) => self.add_rigid(index, name, rigid),
+            Body::Rigid(rigid) => self.add_rigid(name, rigid),
             Body::Cloth(cloth) => self.add_cloth(name, cloth),
             Body::Rope(rope) => self.add_rope(name, rope),
             Body::HalfSpace(half_space) => self.add_half_space(name, half_space),
-            Body::Room(room) => self.add_room(&name, room),
+            Body::Room(room) => return self.add_room(&name, room),
+        }?;
+        if let Some(part) = self.parts.last() {
+            let found = (index, part.body);
+            self.bodies.insert(BodyRef::Index(index as u32), found);
+            self.bodies.extend(body.name().map(|name| (BodyRef::Name(name.to_owned()), found)));
         }
+        Ok(())
     }
 
-    fn add_rigid(&mut self, index: usize, name: String, rigid: &Rigid) -> Result<(), Refusal> {
+    fn add_rigid(&mut self, name: String, rigid: &Rigid) -> Result<(), Refusal> {
         let solid = self.solids.get(&rigid.shape).map_err(|error| Refusal { field: ".shape", error })?;
         let body = match solid.make {
             Make::Rigid(shape) => self.world.add(rigid_body(rigid, &shape)),
@@ -76,10 +83,6 @@ impl Builder {
                 self.world.add(truss_body(rigid, &truss, origin, volume))
             }
         }?;
-        self.rigid.insert(BodyRef::Index(index as u32), body);
-        if let Some(name) = &rigid.name {
-            self.rigid.insert(BodyRef::Name(name.clone()), body);
-        }
         let color = match rigid.color {
             None if rigid.motion() == Motion::Fixed => GREY,
             given => self.color(given),
@@ -127,6 +130,10 @@ impl Builder {
             Thread::Line { from, to, segments } => tautline::Rope::straight(from.into(), to.into(), segments),
             Thread::Points(ref points) => {
                 tautline::Rope::through(points.iter().copied().map(Vec3::from).collect())
+            }
+            Thread::Network { ref points, ref segments } => {
+                let points = points.iter().copied().map(Vec3::from).collect();
+                tautline::Rope::network(points, segments.clone())
             }
         };
         let mut builder = builder
@@ -179,16 +186,28 @@ impl Builder {
 
     /// Adds a joint between bodies that have been added.
     pub(super) fn join(&mut self, document: &Joint) -> Result<(), Error> {
-        let find = |field: &str, body: &BodyRef| {
-            let problem = "it is no rigid body of the scene".to_owned();
-            let unknown = Error::Invalid { field: field.to_owned(), problem };
-            self.rigid.get(body).copied().ok_or(unknown)
-        };
-        let body = find("body", &document.body)?;
-        let base = document.base.as_ref().map(|base| find("base", base)).transpose()?;
+        let (_, body) = self.find("body", &document.body)?;
+        let base = document.base.as_ref().map(|base| self.find("base", base)).transpose()?;
+        let base = base.map(|(_, base)| base);
         let center = self.world.body(body)?.center_of_mass();
         self.world.add_joint(joint(document, body, base, center))?;
         Ok(())
+    }
+
+    /// Adds an attachment between bodies that have been added; `bodies` are those of the document.
+    pub(super) fn attach(&mut self, document: &Attachment, bodies: &[Body]) -> Result<(), Error> {
+        let anchor_of = |end: &Anchor| {
+            let found = end.body.as_ref().map(|body| self.find("body", body)).transpose()?;
+            anchor(&self.world, &end.at, found.map(|(index, body)| (body, &bodies[index])))
+        };
+        let (a, b) = (anchor_of(&document.a)?, anchor_of(&document.b)?);
+        self.world.attach(a, b, strength(document))?;
+        Ok(())
+    }
+
+    fn find(&self, field: &str, body: &BodyRef) -> Result<(usize, BodyHandle), Error> {
+        let problem = "it is no body of the scene that can be held".to_owned();
+        self.bodies.get(body).copied().ok_or(Error::Invalid { field: field.to_owned(), problem })
     }
 
     fn weigh(&mut self, body: BodyHandle, particles: Vec<u32>, mass: f32) -> Result<(), Error> {
@@ -245,7 +264,7 @@ pub(super) fn quaternion(rotation: Rotation) -> Quat {
 }
 
 /// The particles at a place of a sheet; places are of grids only.
-fn sheet_particles(pin: Pin<SheetPlace>, surface: &Surface) -> Vec<u32> {
+pub(super) fn sheet_particles(pin: Pin<SheetPlace>, surface: &Surface) -> Vec<u32> {
     let place = match pin {
         Pin::Index(index) => return vec![index],
         Pin::Place(place) => place,
@@ -266,7 +285,7 @@ fn sheet_particles(pin: Pin<SheetPlace>, surface: &Surface) -> Vec<u32> {
     }
 }
 
-fn rope_particle(pin: Pin<RopeEnd>, path: &Thread) -> u32 {
+pub(super) fn rope_particle(pin: Pin<RopeEnd>, path: &Thread) -> u32 {
     match pin {
         Pin::Index(index) => index,
         Pin::Place(RopeEnd::First) => 0,

@@ -1,5 +1,6 @@
 //! Documents to worlds.
 
+mod attachment;
 mod body;
 mod joint;
 mod rigid;
@@ -60,7 +61,7 @@ pub enum Look {
     Round(Arc<TriMesh>),
     /// A sheet: the triangles are those of the body's view.
     Sheet,
-    /// A tube along the body's particles.
+    /// A tube along the body's particles, or one for each segment of a net.
     Tube {
         /// Radius, in m.
         radius: f32,
@@ -73,8 +74,8 @@ impl Scene {
     /// Makes the world that the document describes. Bodies of equal shape share it.
     ///
     /// # Errors
-    /// [`Error::Invalid`] with every problem of the document's values or, if these are right, every body or
-    /// joint that the engine refuses, such as `bodies[3].rigid.shape: mesh: edge (0, 1) is open: …`. Mesh files must have
+    /// [`Error::Invalid`] with every problem of the document's values or, if these are right, every body,
+    /// joint or attachment that the engine refuses, such as `bodies[3].rigid.shape: mesh: edge (0, 1) is open: …`. Mesh files must have
     /// been read, which [`load`](crate::load) does.
     pub fn build(&self) -> Result<BuiltScene, Error> {
         self.check()?;
@@ -94,6 +95,12 @@ impl Scene {
         for (i, joint) in joints.iter().enumerate() {
             if let Err(error) = builder.join(joint) {
                 problems.push(Problem { path: format!("joints[{i}]"), message: error.to_string() });
+            }
+        }
+        let attachments = if problems.is_empty() { self.attachments.as_slice() } else { &[] };
+        for (i, attachment) in attachments.iter().enumerate() {
+            if let Err(error) = builder.attach(attachment, &self.bodies) {
+                problems.push(Problem { path: format!("attachments[{i}]"), message: error.to_string() });
             }
         }
         if !problems.is_empty() {

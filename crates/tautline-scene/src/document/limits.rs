@@ -6,6 +6,8 @@ pub const FILE_BYTES: u64 = 64 << 20;
 pub const BODIES: usize = 50_000;
 /// Joints of a scene.
 pub const JOINTS: usize = 100_000;
+/// Attachments of a scene.
+pub const ATTACHMENTS: usize = 100_000;
 /// Particles of a scene, over all bodies.
 pub const PARTICLES: u64 = 1_000_000;
 /// Triangles of a scene, over all meshes that are given as triangles.

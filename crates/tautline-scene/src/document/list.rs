@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 
 use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
 
-use super::{Body, Joint, limits};
+use super::{Attachment, Body, Joint, limits};
 
 pub(super) fn bodies<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Body>, D::Error> {
     limited(deserializer, limits::BODIES, "bodies")
@@ -13,6 +13,10 @@ pub(super) fn bodies<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<B
 
 pub(super) fn joints<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Joint>, D::Error> {
     limited(deserializer, limits::JOINTS, "joints")
+}
+
+pub(super) fn attachments<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Attachment>, D::Error> {
+    limited(deserializer, limits::ATTACHMENTS, "attachments")
 }
 
 /// Stops at the first item one too many, so that a long list takes no memory.

@@ -4,6 +4,7 @@
 //! degrees where the name says so. A document is read by [`parse`], judged by [`Scene::check`] and described
 //! to editors by [`json_schema`]. Nothing here knows a world.
 
+mod attachment;
 mod body;
 mod check;
 mod joint;
@@ -20,6 +21,7 @@ mod value;
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 
+pub use attachment::{Anchor, AnchorPlace, Attachment};
 pub use body::{Body, Cloth, HalfSpace, Room, Rope};
 pub use joint::{Joint, JointKind, Motor, Spring};
 pub use parse::{Format, parse};
@@ -66,6 +68,9 @@ pub struct Scene {
     /// What holds rigid bodies together.
     #[serde(default, deserialize_with = "list::joints", skip_serializing_if = "Vec::is_empty")]
     pub joints: Vec<Joint>,
+    /// What holds cloth and rope to each other and to everything else.
+    #[serde(default, deserialize_with = "list::attachments", skip_serializing_if = "Vec::is_empty")]
+    pub attachments: Vec<Attachment>,
     /// Where it is seen from; a view of everything if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub camera: Option<Camera>,
@@ -88,6 +93,7 @@ impl Default for Scene {
             settings: Settings::default(),
             bodies: Vec::new(),
             joints: Vec::new(),
+            attachments: Vec::new(),
             camera: None,
             bounds: None,
         }

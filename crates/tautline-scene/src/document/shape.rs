@@ -206,6 +206,13 @@ pub enum Thread {
     },
     /// A line through points.
     Points(Vec<[f32; 3]>),
+    /// A net, or any rope with branches.
+    Network {
+        /// Its points.
+        points: Vec<[f32; 3]>,
+        /// Between which points there are segments, by their indices.
+        segments: Vec<[u32; 2]>,
+    },
 }
 
 impl Default for Thread {
@@ -301,7 +308,7 @@ impl Thread {
     pub fn point_count(&self) -> u64 {
         match self {
             Self::Line { segments, .. } => u64::from(*segments) + 1,
-            Self::Points(points) => points.len() as u64,
+            Self::Points(points) | Self::Network { points, .. } => points.len() as u64,
         }
     }
 }

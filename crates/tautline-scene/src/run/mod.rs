@@ -3,6 +3,7 @@
 mod recorder;
 mod summary;
 mod tube;
+mod tubes;
 
 use std::time::Instant;
 

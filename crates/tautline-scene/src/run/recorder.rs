@@ -3,7 +3,7 @@
 use tautline::mesh::TriMesh;
 use tautline::{BodyHandle, World};
 
-use super::tube::Tube;
+use super::tubes::Tubes;
 use crate::build::{BuiltScene, Look, Part};
 use crate::error::Error;
 use crate::recording::{Motion, Recording, Surface, Track};
@@ -21,7 +21,7 @@ enum Source {
     Still,
     Rigid(BodyHandle),
     Sheet(BodyHandle),
-    Rope(BodyHandle, Tube),
+    Rope(BodyHandle, Tubes),
 }
 
 impl Recorder {
@@ -57,8 +57,8 @@ impl Recorder {
                 (Source::Sheet(body), Motion::Deforming(frames)) => {
                     frames.push(world.body(*body)?.positions().to_vec());
                 }
-                (Source::Rope(body, tube), Motion::Deforming(frames)) => {
-                    frames.push(tube.positions(world.body(*body)?.positions()));
+                (Source::Rope(body, tubes), Motion::Deforming(frames)) => {
+                    frames.push(tubes.positions(world.body(*body)?.positions()));
                 }
                 _ => {}
             }
@@ -93,9 +93,9 @@ fn track_of(part: &Part, world: &World) -> Result<(Track, Source), Error> {
             (Surface::Sheet, mesh, Motion::Deforming(Vec::new()), Source::Sheet(part.body))
         }
         Look::Tube { radius } => {
-            let mut tube = Tube::new(*radius);
-            let mesh = tube.mesh(body.positions());
-            (Surface::Round, mesh, Motion::Deforming(Vec::new()), Source::Rope(part.body, tube))
+            let mut tubes = Tubes::new(*radius, body.sticks());
+            let mesh = tubes.mesh(body.positions());
+            (Surface::Round, mesh, Motion::Deforming(Vec::new()), Source::Rope(part.body, tubes))
         }
     };
     Ok((Track { name: part.name.clone(), color: part.color, surface, mesh, motion }, source))

@@ -24,6 +24,8 @@ pub(crate) struct Deformable {
     pub(crate) thickness: f32,
     /// `None` if it passes through itself.
     pub(crate) neighbours: Option<Neighbours>,
+    /// The length that a rope is being wound to, in m.
+    pub(crate) winding: Option<f32>,
     /// λ of each angle, then of each bending: scratch memory, zeroed at the start of a substep.
     #[serde(skip)]
     pub(crate) multipliers: Vec<f32>,
@@ -91,6 +93,7 @@ impl Deformable {
             tree,
             thickness,
             neighbours,
+            winding: None,
             multipliers: Vec::new(),
         })
     }
@@ -106,6 +109,11 @@ impl Deformable {
 
     pub(crate) fn is_rope(&self) -> bool {
         self.triangles.is_empty()
+    }
+
+    /// Whether it is a rope of which each segment begins where the last one ended.
+    pub(crate) fn is_chain(&self) -> bool {
+        self.is_rope() && self.sticks.iter().zip(0..).all(|(stick, i)| [stick.a, stick.b] == [i, i + 1])
     }
 
     /// How far beyond its particles the spheres of its leaves may reach, in m.
@@ -128,6 +136,7 @@ impl Deformable {
                 ok(&b.edge) && ok(&b.wings) && b.limit.is_finite() && sound_compliance(b.compliance)
             })
             && self.thickness >= 0.0
+            && self.winding.is_none_or(|length| self.is_rope() && self.check_length(length).is_ok())
             && self.neighbours.as_ref().is_none_or(|n| n.is_valid(self.tree.topology().leaf_count()));
         if sound { Ok(()) } else { Err(Error::Snapshot("a cloth or rope is inconsistent".into())) }
     }

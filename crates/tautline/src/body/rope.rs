@@ -11,6 +11,8 @@ use crate::geometry::sphere_tree::Feature;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rope {
     points: Vec<Vec3>,
+    /// Between which points.
+    segments: Vec<[u32; 2]>,
     length: Option<f32>,
     velocity: Vec3,
     mass: f32,
@@ -26,8 +28,28 @@ impl Rope {
     /// A rope through these points, in m, with a particle at each. 1 kg, radius 2 cm, friction 0.5, without
     /// bending, passing through itself.
     pub fn through(points: Vec<Vec3>) -> Self {
+        let segments = (1..points.len() as u32).map(|end| [end - 1, end]).collect();
+        Self::network(points, segments)
+    }
+
+    /// A net, or any rope with branches: particles at these points, in m, and segments between them, by the numbers of
+    /// their ends. Otherwise as [`Rope::through`]. What it says of a rope's inner particles holds at every point of a
+    /// net, for each two segments that meet there.
+    ///
+    /// ```
+    /// use tautline::{Rope, Settings, Vec3, World};
+    ///
+    /// let points = vec![Vec3::ZERO, Vec3::X, Vec3::new(1.5, 0.0, 0.8), Vec3::new(1.5, 0.0, -0.8)];
+    /// let fork = Rope::network(points, vec![[0, 1], [1, 2], [1, 3]]).pin(0);
+    /// let mut world = World::new(Settings::default())?;
+    /// let fork = world.add(fork)?;
+    /// assert_eq!(world.body(fork)?.sticks().len(), 3);
+    /// # Ok::<(), tautline::Error>(())
+    /// ```
+    pub fn network(points: Vec<Vec3>, segments: Vec<[u32; 2]>) -> Self {
         Self {
             points,
+            segments,
             length: None,
             velocity: Vec3::ZERO,
             mass: 1.0,
@@ -93,7 +115,7 @@ impl Rope {
         self
     }
 
-    /// Pins both ends.
+    /// Pins both ends: the first point and the last.
     pub fn pin_ends(self) -> Self {
         let last = self.points.len().saturating_sub(1) as u32;
         self.pin(0).pin(last)
@@ -101,10 +123,10 @@ impl Rope {
 
     pub(crate) fn build(self) -> Result<BuiltDeformable, Error> {
         self.validate()?;
-        let last = self.points.len() as u32 - 1;
-        let laid_out: f32 = self.points.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+        let at_rest = |&[a, b]: &[u32; 2]| Stick::at_rest(a, b, &self.points);
+        let mut sticks: Vec<Stick> = self.segments.iter().map(at_rest).collect();
+        let laid_out: f32 = sticks.iter().map(|stick| stick.rest_length).sum();
         let scale = self.length.map_or(1.0, |length| length / laid_out);
-        let mut sticks: Vec<Stick> = (0..last).map(|i| Stick::at_rest(i, i + 1, &self.points)).collect();
         sticks.iter_mut().for_each(|stick| stick.rest_length *= scale);
         Stick::check_all(&sticks, "length")?;
         let parts = Parts {
@@ -114,7 +136,7 @@ impl Rope {
             bendings: Vec::new(),
             grid: None,
             rigidity: None,
-            leaves: (0..last).map(|i| Feature::Segment([i, i + 1])).collect(),
+            leaves: self.segments.iter().map(|&ends| Feature::Segment(ends)).collect(),
             leaf_margin: self.radius,
             thickness: self.radius,
             self_collision: self.self_collision,
@@ -124,21 +146,36 @@ impl Rope {
         Ok(BuiltDeformable { positions: points, body, velocity, mass, friction, pins })
     }
 
-    /// At every inner particle, what holds it as laid out and what keeps it from folding.
+    /// Where segments meet, what holds each two of them as laid out and what keeps them from folding.
     fn angles(&self) -> Vec<Angle> {
-        let inner = 1..self.points.len() as u32 - 1;
-        let at_rest = |b: u32| {
-            angle_gradient(self.point(b - 1), self.point(b), self.point(b + 1)).map(|(angle, _)| angle)
-        };
-        let stiff = |b: u32| {
-            let (compliance, angle) = (self.bending_compliance?, at_rest(b)?);
-            Some(Angle { a: b - 1, b, c: b + 1, limit: AngleLimit::Target(angle), compliance })
-        };
-        let limited = |b: u32| {
-            let limit = AngleLimit::Range(self.least_angle?, std::f32::consts::PI);
-            Some(Angle { a: b - 1, b, c: b + 1, limit, compliance: 0.0 })
-        };
-        inner.flat_map(|b| [stiff(b), limited(b)]).flatten().collect()
+        if self.bending_compliance.is_none() && self.least_angle.is_none() {
+            return Vec::new();
+        }
+        let mut meeting: Vec<Vec<u32>> = vec![Vec::new(); self.points.len()];
+        for &[a, b] in &self.segments {
+            meeting[a as usize].push(b);
+            meeting[b as usize].push(a);
+        }
+        let mut angles = Vec::new();
+        for (others, b) in meeting.iter().zip(0..) {
+            for (rank, &a) in others.iter().enumerate() {
+                for &c in &others[rank + 1..] {
+                    angles.extend([self.stiff(a, b, c), self.limited(a, b, c)].into_iter().flatten());
+                }
+            }
+        }
+        angles
+    }
+
+    fn stiff(&self, a: u32, b: u32, c: u32) -> Option<Angle> {
+        let compliance = self.bending_compliance?;
+        let (angle, _) = angle_gradient(self.point(a), self.point(b), self.point(c))?;
+        Some(Angle { a, b, c, limit: AngleLimit::Target(angle), compliance })
+    }
+
+    fn limited(&self, a: u32, b: u32, c: u32) -> Option<Angle> {
+        let limit = AngleLimit::Range(self.least_angle?, std::f32::consts::PI);
+        Some(Angle { a, b, c, limit, compliance: 0.0 })
     }
 
     fn point(&self, index: u32) -> Vec3 {
@@ -152,11 +189,7 @@ impl Rope {
             return Err(Error::Invalid { field: "points".into(), problem });
         }
         all_coordinates("points", &self.points)?;
-        let without_length = |pair: &[Vec3]| pair[0].distance_squared(pair[1]) < f32::MIN_POSITIVE;
-        if let Some(index) = self.points.windows(2).position(without_length) {
-            let problem = format!("is where points[{index}] is; a segment needs a length");
-            return Err(Error::Invalid { field: format!("points[{}]", index + 1), problem });
-        }
+        self.validate_segments()?;
         if let Some(pin) = self.pins.iter().find(|&&pin| pin as usize >= count) {
             let (field, value) = ("pins".into(), f64::from(*pin));
             return Err(Error::OutOfRange { field, value, expected: "the number of one of its particles" });
@@ -175,6 +208,39 @@ impl Rope {
             within("bending_compliance", compliance, 0.0, 1e12, "a number from 0 to 1e12 (rad/(N·m))")?;
         }
         Ok(())
+    }
+
+    fn validate_segments(&self) -> Result<(), Error> {
+        let count = self.segments.len();
+        let refuse = |field: String, problem: String| Err(Error::Invalid { field, problem });
+        if !(1..=MOST_SEGMENTS as usize).contains(&count) {
+            let problem = format!("{count} segments; a rope needs 1 to {MOST_SEGMENTS}");
+            return refuse("segments".into(), problem);
+        }
+        let mut is_held = vec![false; self.points.len()];
+        for (number, &[a, b]) in self.segments.iter().enumerate() {
+            let (Some(_), Some(end)) = (self.points.get(a as usize), self.points.get(b as usize)) else {
+                let problem =
+                    format!("is between points that are not there: there are {}", self.points.len());
+                return refuse(format!("segments[{number}]"), problem);
+            };
+            if self.point(a).distance_squared(*end) < f32::MIN_POSITIVE {
+                let problem = format!("is where points[{a}] is; a segment needs a length");
+                return refuse(format!("points[{b}]"), problem);
+            }
+            (is_held[a as usize], is_held[b as usize]) = (true, true);
+        }
+        if let Some(loose) = is_held.iter().position(|held| !held) {
+            return refuse(format!("points[{loose}]"), "is at the end of no segment".into());
+        }
+        let mut pairs: Vec<[u32; 2]> = self.segments.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
+        pairs.sort_unstable();
+        match pairs.windows(2).find(|two| two[0] == two[1]) {
+            Some(two) => {
+                refuse("segments".into(), format!("two are between {} and {}", two[0][0], two[0][1]))
+            }
+            None => Ok(()),
+        }
     }
 }
 

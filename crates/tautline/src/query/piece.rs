@@ -80,7 +80,7 @@ pub(crate) fn piece_count(body: &Body) -> usize {
     match &body.substance {
         Substance::Rigid(_) | Substance::HalfSpace(_) => solid_piece_count(body),
         Substance::Truss { truss } => 1 + truss.triangles().len(),
-        Substance::Deformable(deformable) if deformable.is_rope() => body.particles.len() - 1,
+        Substance::Deformable(deformable) if deformable.is_rope() => deformable.sticks.len(),
         Substance::Deformable(deformable) => deformable.triangles.len(),
     }
 }
@@ -113,8 +113,9 @@ impl<'a> Piece<'a> {
                 Some(number) => triangle(truss.triangles(), number),
             },
             Substance::Deformable(deformable) if deformable.is_rope() => {
-                let [a, b] = [particles.get(number)?, particles.get(number + 1)?];
-                Some(Self::Segment([*a, *b], deformable.thickness))
+                let stick = deformable.sticks.get(number)?;
+                let ends = [stick.a, stick.b].map(|end| particles[end as usize]);
+                Some(Self::Segment(ends, deformable.thickness))
             }
             Substance::Deformable(deformable) => triangle(&deformable.triangles, number),
             Substance::HalfSpace(_) => None,

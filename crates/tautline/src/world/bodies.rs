@@ -95,7 +95,7 @@ impl World {
         self.slots.push()
     }
 
-    /// Removes a body with its particles and its joints, and wakes what may have rested on it or hung from it.
+    /// Removes a body with its particles, joints and attachments, and wakes what may have rested on it or hung from it.
     ///
     /// # Errors
     /// [`Error::StaleHandle`].
@@ -112,7 +112,8 @@ impl World {
         self.pairs.remove_body(index as u32);
         self.rigid.remove_body(index);
         self.soft.invalidate();
-        let let_go = self.joints.remove_body(index as u32);
+        let mut let_go = self.joints.remove_body(index as u32);
+        let_go.extend(self.attachments.remove_body(index as u32));
         for body in &mut self.bodies[index..] {
             body.particles = body.particles.start - range.len()..body.particles.end - range.len();
         }

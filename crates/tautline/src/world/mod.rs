@@ -6,11 +6,13 @@ mod grab;
 mod motion;
 mod particles;
 mod rigid;
+mod winding;
 
 use std::sync::OnceLock;
 
 use glam::Vec3;
 
+use crate::attachment::Attachments;
 use crate::body::{Body, Motion};
 use crate::collision::{Candidate, Contact, NarrowPhase, PairCache};
 use crate::error::Error;
@@ -19,7 +21,7 @@ use crate::joint::Joints;
 use crate::particles::Particles;
 use crate::query::Index;
 use crate::rest::wake_around;
-use crate::settings::Settings;
+use crate::settings::{ClothSolver, Settings};
 use crate::slots::Slots;
 use crate::solver::paper::Moved;
 use crate::solver::soft::SoftSolver;
@@ -55,6 +57,7 @@ pub struct World {
     pub(crate) slots: Slots,
     pub(crate) pairs: PairCache,
     pub(crate) joints: Joints,
+    pub(crate) attachments: Attachments,
     pub(crate) rigid: RigidSolver,
     pub(crate) soft: SoftSolver,
     pub(crate) contacts: Contacts,
@@ -94,6 +97,7 @@ impl World {
             slots: Slots::default(),
             pairs: PairCache::default(),
             joints: Joints::default(),
+            attachments: Attachments::default(),
             rigid: RigidSolver::default(),
             soft: SoftSolver::default(),
             contacts: Contacts::default(),
@@ -112,9 +116,14 @@ impl World {
     /// Changes how it is simulated, from the next step on.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] with the path of the first setting that is wrong; the old ones stay.
+    /// [`Error::OutOfRange`] with the path of the first setting that is wrong, [`Error::Invalid`] if cloth is to be the
+    /// paper's solver's while there are attachments; the old ones stay.
     pub fn set_settings(&mut self, settings: Settings) -> Result<(), Error> {
         settings.validate()?;
+        if settings.cloth == ClothSolver::Paper && self.attachments().len() > 0 {
+            let problem = "is the paper's solver, which knows no attachments: detach them first".into();
+            return Err(Error::Invalid { field: "cloth".into(), problem });
+        }
         self.settings = settings;
         self.rigid.invalidate();
         self.soft.invalidate();

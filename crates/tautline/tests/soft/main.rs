@@ -1,12 +1,16 @@
 //! Cloth and rope in small steps, seen from outside: what they lie on, what they carry, what they keep.
 
+mod attach;
+mod attach_handles;
 mod bits;
 mod closed;
 mod motion;
+mod nets;
 mod rest;
 mod ropes;
 mod solids;
 mod together;
+mod winding;
 
 use std::sync::Arc;
 

@@ -46,20 +46,20 @@ fn check_joint(c: &mut Checker, joint: &Joint, sides: &Sides) {
     }
 }
 
-/// What a joint can hold.
-struct Sides<'a> {
+/// What can be held.
+pub(super) struct Sides<'a> {
     bodies: &'a [Body],
     by_name: BTreeMap<&'a str, usize>,
 }
 
 impl<'a> Sides<'a> {
-    fn new(bodies: &'a [Body]) -> Self {
+    pub(super) fn new(bodies: &'a [Body]) -> Self {
         let named = |(i, body): (usize, &'a Body)| body.name().map(|name| (name, i));
         Self { bodies, by_name: bodies.iter().enumerate().filter_map(named).collect() }
     }
 
-    /// The rigid body and its index, or what is wrong.
-    fn find(&self, body: &BodyRef) -> Result<(usize, &'a Rigid), String> {
+    /// A body and its index, or what is wrong.
+    pub(super) fn body(&self, body: &BodyRef) -> Result<(usize, &'a Body), String> {
         let index = match body {
             BodyRef::Index(index) if (*index as usize) < self.bodies.len() => *index as usize,
             BodyRef::Index(index) => {
@@ -70,7 +70,13 @@ impl<'a> Sides<'a> {
                 None => return Err(format!("no body has the name {name:?}")),
             },
         };
-        match &self.bodies[index] {
+        Ok((index, &self.bodies[index]))
+    }
+
+    /// The rigid body and its index, or what is wrong.
+    fn find(&self, body: &BodyRef) -> Result<(usize, &'a Rigid), String> {
+        let (index, body) = self.body(body)?;
+        match body {
             Body::Rigid(rigid) => Ok((index, rigid)),
             other => {
                 let hint = "joints hold rigid bodies, and a joint without a base is held by the world";

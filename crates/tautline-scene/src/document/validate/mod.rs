@@ -1,5 +1,6 @@
 //! Judges a document: every value that is wrong, with its path.
 
+mod attachment;
 mod joint;
 mod rigid;
 mod shape;
@@ -16,6 +17,7 @@ use super::{
     SheetPlace, Sleep, Surface, Thread, VERSION, limits,
 };
 use crate::error::{Error, Problem};
+use attachment::check_attachments;
 use joint::check_joints;
 use rigid::check_rigid;
 use shape::check_surface;
@@ -49,6 +51,7 @@ impl Scene {
         c.within("settings", |c| check_settings(c, &self.settings));
         check_bodies(&mut c, &self.bodies, self.has_trusses());
         check_joints(&mut c, self);
+        check_attachments(&mut c, self);
         if let Some(Camera { eye, target, fov }) = &self.camera {
             c.within("camera", |c| {
                 c.vector("eye", eye, COORDINATE);
@@ -199,6 +202,7 @@ fn check_rope(c: &mut Checker, rope: &Rope) {
                 });
             }
         }
+        Thread::Network { points, segments } => check_network(c, points, segments),
     }
     c.optional("length", rope.length, LENGTH);
     c.number("radius", rope.radius, LENGTH);
@@ -215,6 +219,20 @@ fn check_rope(c: &mut Checker, rope: &Rope) {
     c.number("friction", rope.friction, NOT_NEGATIVE);
     c.optional("bending", rope.bending, NOT_NEGATIVE);
     c.optional("least_angle_degrees", rope.least_angle_degrees, ANGLE);
+}
+
+fn check_network(c: &mut Checker, points: &[[f32; 3]], segments: &[[u32; 2]]) {
+    c.points("path.network.points", points);
+    c.require(!segments.is_empty(), "path.network.segments", || "there are none".to_owned());
+    for (k, ends) in segments.iter().enumerate() {
+        for (side, &end) in ends.iter().enumerate() {
+            c.require(
+                (end as usize) < points.len(),
+                format_args!("path.network.segments[{k}][{side}]"),
+                || format!("{end} is the index of no point: there are {}", points.len()),
+            );
+        }
+    }
 }
 
 fn check_pin<Place>(c: &mut Checker, field: impl Display, pin: &Pin<Place>, count: u64) {

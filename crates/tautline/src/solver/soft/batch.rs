@@ -13,8 +13,12 @@ struct Batch {
 }
 
 /// All sticks of a piece.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Batches(Vec<Batch>);
+#[derive(Debug, Clone)]
+pub(super) struct Batches {
+    batches: Vec<Batch>,
+    /// How much longer than they were laid out they are.
+    pub(super) scale: f32,
+}
 
 impl Batches {
     /// Of sticks between places. Each goes to the first colour in which none has an end of it (greedy colouring).
@@ -37,14 +41,14 @@ impl Batches {
             let size = if colour == 63 { 1 } else { LANES };
             batches.extend(members.chunks(size).map(|chunk| Batch::new(sticks, chunk)));
         }
-        Self(batches)
+        Self { batches, scale: 1.0 }
     }
 
     /// Relaxes every stick once.
     #[inline(always)]
     pub(super) fn sweep<L: Lanes>(&self, points: &mut Points, masses: &[f32]) {
-        for batch in &self.0 {
-            batch.relax::<L>(points, masses);
+        for batch in &self.batches {
+            batch.relax::<L>(points, masses, self.scale);
         }
     }
 }
@@ -62,7 +66,7 @@ impl Batch {
     }
 
     #[inline(always)]
-    fn relax<L: Lanes>(&self, points: &mut Points, masses: &[f32]) {
+    fn relax<L: Lanes>(&self, points: &mut Points, masses: &[f32], scale: f32) {
         let (mut between, mut free) = ([Row::ZERO; 3], [Row::ZERO; 2]);
         for lane in 0..self.count {
             let (a, b) = (self.ends[0][lane] as usize, self.ends[1][lane] as usize);
@@ -72,7 +76,9 @@ impl Batch {
             (free[0].0[lane], free[1].0[lane]) = (masses[a], masses[b]);
         }
         let [low, high, compliance] = &self.spans;
-        let spans = Spans { low: L::load(low), high: L::load(high), compliance: L::load(compliance) };
+        let scale = L::splat(scale);
+        let [low, high] = [L::load(low) * scale, L::load(high) * scale];
+        let spans = Spans { low, high, compliance: L::load(compliance) };
         let [first, second] = [L::load(&free[0]), L::load(&free[1])];
         let pull = pull(Vec3x8::load(&between), [first, second], spans);
         let mut shifts = [[Row::ZERO; 3]; 2];

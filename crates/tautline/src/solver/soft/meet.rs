@@ -91,6 +91,8 @@ pub(super) struct Meetings {
     base: Coordinates,
     lists: Vec<List>,
     spare: Vec<List>,
+    /// The pairs of places, ascending, that are attached to each other.
+    links: Vec<[u32; 2]>,
 }
 
 /// Eight particles from a place on.
@@ -146,6 +148,13 @@ impl Meetings {
     pub(super) fn forget(&mut self, points: &Points) {
         self.spare.append(&mut self.lists);
         self.base.clone_from(&points.position);
+    }
+
+    /// Tells which places are attached to each other: they do not push.
+    pub(super) fn link(&mut self, links: impl Iterator<Item = [u32; 2]>) {
+        self.links.clear();
+        self.links.extend(links.map(|[a, b]| [a.min(b), a.max(b)]));
+        self.links.sort_unstable();
     }
 
     pub(super) fn is_empty(&self) -> bool {
@@ -294,13 +303,14 @@ impl Meetings {
         while near != 0 {
             let other = others + near.trailing_zeros() as usize;
             near &= near - 1;
+            let (low, high) = (place.min(other), place.max(other));
             let is_neighbour = match exempt {
                 Some(Exempt::Listed(start, lists)) => {
-                    let (low, high) = (place.min(other), place.max(other));
                     lists.get(low - start).is_some_and(|list| list.binary_search(&(high as u32)).is_ok())
                 }
                 _ => false,
             };
+            let is_neighbour = is_neighbour || self.links.binary_search(&[low as u32, high as u32]).is_ok();
             if (!is_same_tile || other > place) && !is_neighbour {
                 out.push([place as u32, other as u32]);
             }

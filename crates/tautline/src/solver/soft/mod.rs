@@ -5,6 +5,7 @@
 //! particles by tethers. Rigid bodies have made their substep by then; cloth and rope meet them on the way, push them and
 //! are pushed.
 
+mod attach;
 mod batch;
 mod bend;
 mod grid;
@@ -26,17 +27,20 @@ mod tether;
 mod thread;
 mod tile;
 mod touch;
+mod wind;
 
 use glam::Vec3;
 
+use crate::attachment::Attachments;
 use crate::body::{Body, Deformable, Substance};
 use crate::particles::Particles;
 use crate::settings::Settings;
 use crate::simd::LANES;
 use crate::solver::substep::RigidSolver;
 
+use attach::Ties;
 use meet::Meetings;
-use piece::{Piece, span_of};
+use piece::{Layout, Piece, span_of};
 use points::{Coordinates, Points, get, set};
 use rest::Rest;
 use ropes::{Bundle, Rope};
@@ -63,6 +67,7 @@ pub(crate) struct SoftSolver {
     meetings: Meetings,
     strands: Strands,
     touches: Vec<Touch>,
+    ties: Ties,
     /// Inverse masses as sweeps take them.
     lightened: Vec<f32>,
     /// Held particles that are led along: their places, and their motion in a small step (m).
@@ -71,6 +76,8 @@ pub(crate) struct SoftSolver {
     saved: Coordinates,
     /// Small steps made in this step.
     done: u32,
+    /// Small steps that there are in it.
+    planned: u32,
     /// Small steps in a second, about.
     rate: f32,
     /// Whether bodies have come, gone or changed since everything was laid out.
@@ -86,17 +93,27 @@ impl SoftSolver {
     /// Forgets everything.
     pub(crate) fn clear(&mut self) {
         self.pieces.clear();
+        self.ties = Ties::default();
         self.is_stale = true;
     }
 
     /// Reads the particles of all awake cloth and rope; `h` is a substep (s).
-    pub(crate) fn begin(&mut self, bodies: &[Body], particles: &Particles, settings: &Settings, h: f32) {
+    pub(crate) fn begin(
+        &mut self,
+        (bodies, particles, attachments): (&[Body], &Particles, &Attachments),
+        settings: &Settings,
+        h: f32,
+    ) {
         self.done = 0;
         let is_awake = |(_, body): &(usize, &Body)| body.is_awake() && body.is_soft();
         let awake = bodies.iter().enumerate().filter(is_awake).map(|(index, _)| index);
         if self.is_stale || !awake.eq(self.pieces.iter().map(|piece| piece.body)) {
             self.lay_out(bodies, particles, h);
+            self.ties = Ties::new(attachments, &self.pieces, bodies, particles);
+            self.link(bodies);
         }
+        self.ties.begin_step();
+        self.planned = self.small_steps(h) as u32 * settings.substeps;
         let small = h / self.small_steps(h);
         self.led.clear();
         for kick in &mut self.points.kick {
@@ -116,6 +133,7 @@ impl SoftSolver {
         let body = &bodies[piece.body];
         if let Substance::Deformable(deformable) = &body.substance {
             piece.tie(body, deformable, particles);
+            piece.note_winding(deformable);
         }
         piece.rest = Rest { calm_for: body.rest.calm_for, ..Rest::default() };
         let scale = small / body.displacement_time();
@@ -162,8 +180,11 @@ impl SoftSolver {
             }
             let Substance::Deformable(deformable) = &body.substance else { continue };
             if deformable.is_rope() {
-                let spans = deformable.sticks.iter().map(|stick| span_of(stick.rest_length, 0.0)).collect();
-                ropes.push(Rope { start: piece.places.start, spans });
+                if let Layout::Rope = piece.layout {
+                    let spans =
+                        deformable.sticks.iter().map(|stick| span_of(stick.rest_length, 0.0)).collect();
+                    ropes.push(Rope { start: piece.places.start, spans });
+                }
                 self.strands.add(segments(number as u32, piece, deformable, body));
             } else {
                 let distance = 2.0 * piece.thickness;
@@ -179,6 +200,19 @@ impl SoftSolver {
         let alike = ropes.chunk_by(|a, b| a.spans.len() == b.spans.len());
         let bundle = |ropes: &[Rope]| Bundle::new(ropes.to_vec(), mean);
         self.bundles = alike.flat_map(|ropes| ropes.chunks(LANES)).map(bundle).collect();
+    }
+
+    /// Notes what holds what, and so does not touch it.
+    fn link(&mut self, bodies: &[Body]) {
+        self.meetings.link(self.ties.links());
+        let of_net = |piece: &Piece| match &bodies[piece.body].substance {
+            Substance::Deformable(net) if matches!(piece.layout, Layout::Net(_)) => {
+                let start = piece.places.start as u32;
+                net.sticks.iter().map(|stick| [start + stick.a, start + stick.b]).collect()
+            }
+            _ => Vec::new(),
+        };
+        self.strands.link(self.ties.links().chain(self.pieces.iter().flat_map(of_net)));
     }
 
     /// One substep of `h` (s), after the rigid bodies have made theirs.
@@ -197,6 +231,7 @@ impl SoftSolver {
             recovery: settings.separation_speed.unwrap_or(f32::INFINITY),
             instructions: settings.instructions,
         };
+        self.ties.begin_substep(&solids);
         self.make_small_steps(&mut solids, bodies, &timing);
         for solid in &solids {
             if let Some(change) = solid.outcome(count) {
@@ -217,6 +252,15 @@ impl SoftSolver {
             let motion = get(&self.points.displacement, place) + change * (h / self.small_steps(h));
             set(&mut self.points.displacement, place, motion);
         }
+    }
+
+    /// With what force (N) each attachment that holds held its first end in this step of substeps of `h` (s), on the
+    /// mean, with its index.
+    pub(crate) fn attachment_forces(&self, h: f32) -> Vec<(usize, Vec3)> {
+        let small = h / self.small_steps(h);
+        let scale = 1.0 / (small * small * self.done.max(1) as f32);
+        let is_done = self.done > 0;
+        self.ties.totals().filter(|_| is_done).map(|(index, total)| (index, total * scale)).collect()
     }
 
     /// How many small steps a substep of `h` (s) has.
@@ -257,6 +301,7 @@ impl SoftSolver {
             }
             body.previous_step = small;
         }
+        self.keep_winding(bodies);
         self.is_stale |= !lost.is_empty();
         lost
     }
@@ -269,6 +314,8 @@ fn segments(number: u32, piece: &Piece, rope: &Deformable, body: &Body) -> impl 
     // Segments that a bend could bring so near are neighbours, and no contact.
     let shortest = rope.sticks.iter().map(|stick| stick.rest_length).fold(f32::INFINITY, f32::min);
     let near = (3.0 * radius / shortest).ceil().min(1e6) as u32 + 1;
+    // In a net, numbers do not tell what is near.
+    let near = if rope.is_chain() { near } else { 0 };
     let exempt = if rope.neighbours.is_some() { near } else { u32::MAX };
     rope.sticks.iter().zip(0..).map(move |(stick, number_in_rope)| Segment {
         ends: [start + stick.a, start + stick.b],

@@ -41,6 +41,8 @@ pub(super) struct Piece {
     pub(super) longest_motion: f32,
     /// How far the fastest particle went in the last small step, in m.
     pub(super) fastest: f32,
+    /// By what factor a rope is wound in this step.
+    pub(super) winding: Option<f32>,
 }
 
 /// How the sticks of a piece are solved.
@@ -51,6 +53,8 @@ pub(super) enum Layout {
     Loose(Batches),
     /// With others, in a bundle.
     Rope,
+    /// Segments in any order, last.
+    Net(Batches),
 }
 
 impl Piece {
@@ -78,12 +82,12 @@ impl Piece {
             }
             None => {
                 let places = start..start + count.next_multiple_of(LANES);
-                let layout = if deformable.is_rope() {
-                    Layout::Rope
-                } else {
-                    let placed =
-                        |stick: &Stick| ([stick.a + start as u32, stick.b + start as u32], span(stick));
-                    Layout::Loose(Batches::new(&deformable.sticks.iter().map(placed).collect::<Vec<_>>()))
+                let placed = |stick: &Stick| ([stick.a + start as u32, stick.b + start as u32], span(stick));
+                let batches = || Batches::new(&deformable.sticks.iter().map(placed).collect::<Vec<_>>());
+                let layout = match (deformable.is_rope(), deformable.is_chain()) {
+                    (false, _) => Layout::Loose(batches()),
+                    (true, false) => Layout::Net(batches()),
+                    (true, true) => Layout::Rope,
                 };
                 (layout, places.clone(), tiles_of_run(places))
             }
@@ -104,6 +108,7 @@ impl Piece {
             thickness: deformable.thickness,
             longest_motion: f32::MAX,
             fastest: 0.0,
+            winding: None,
         };
         let Deformable { angles, bendings, .. } = deformable;
         piece.hinges = Hinges::new(angles, bendings, |particle| piece.place(particle));
@@ -117,7 +122,7 @@ impl Piece {
             Layout::Sheet(sheet) => {
                 sheet.grid.place(particle / sheet.grid.columns, particle % sheet.grid.columns)
             }
-            Layout::Loose(_) | Layout::Rope => self.places.start + particle,
+            Layout::Loose(_) | Layout::Rope | Layout::Net(_) => self.places.start + particle,
         }
     }
 
@@ -136,6 +141,11 @@ impl Piece {
         };
         self.tethers = Tethers::new(&held, count, distances, |particle| self.place(particle));
         self.held = held;
+    }
+
+    /// Whether it is a rope or net, and no cloth.
+    pub(super) fn is_rope(&self) -> bool {
+        matches!(self.layout, Layout::Rope | Layout::Net(_))
     }
 
     pub(super) fn is_held(&self) -> bool {

@@ -65,6 +65,15 @@ impl Bundle {
         self.write(points);
     }
 
+    /// Scales the lengths of the rope that starts at a place, if it is one of these, to so many times what they were laid
+    /// out at.
+    pub(super) fn scale(&mut self, start: usize, factor: f32) {
+        let Some(lane) = self.ropes.iter().position(|rope| rope.start == start) else { return };
+        for ([low, high, _], span) in self.spans.iter_mut().zip(&self.ropes[lane].spans) {
+            (low.0[lane], high.0[lane]) = (span.low * factor, span.high * factor);
+        }
+    }
+
     fn read(&mut self, points: &Points) {
         for (lane, rope) in self.ropes.iter().enumerate() {
             for knot in 0..=rope.spans.len() {

@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use super::SoftSolver;
+use super::attach::Moment;
 use super::hinge;
 use super::patch::{Cone, cone_of};
 use super::piece::{Layout, Piece};
@@ -39,6 +40,11 @@ pub(super) struct Timing {
 }
 
 impl Timing {
+    fn moment(&self, number: usize) -> Moment {
+        let left = (self.count - number - 1) as f32;
+        Moment { left, small: self.small, recovery: self.recovery * self.small }
+    }
+
     fn push(&self) -> Push {
         Push { recovery: self.recovery * self.small, lightness: LIGHTNESS }
     }
@@ -50,18 +56,23 @@ impl SoftSolver {
         let instructions = timing.instructions;
         let mut until_search = 0;
         for number in 0..timing.count {
+            self.wind();
             run(instructions, Integrate(self, timing));
             if until_search == 0 {
                 let left = timing.count - number;
                 until_search = run(instructions, FindTouches { solver: self, solids, bodies, left });
+                self.ties.exempt(&mut self.touches);
             }
             until_search -= 1;
+            self.load_ties(solids, timing.moment(number));
             run(instructions, Relax(self));
             self.turn_hinges(timing.small);
             run(instructions, Part(self, timing.recovery * timing.small));
             run(instructions, PullRopes(self));
+            self.unload_ties(solids, timing.moment(number));
             run(instructions, PushOut { solver: self, solids, timing });
             run(instructions, SweepWindows { solver: self, solids, timing });
+            self.ties.pull(&mut self.points, solids, timing.moment(number));
             solids.iter_mut().for_each(Solid::advance);
             self.done += 1;
         }
@@ -145,7 +156,10 @@ impl Kernel for Relax<'_> {
         let SoftSolver { points, pieces, lightened, done, .. } = self.0;
         let mut pivots: Vec<Pivot<L>> = Vec::new();
         for piece in pieces {
-            piece.tethers.tighten::<L>(points);
+            // They go by the length that a rope was laid out with.
+            if piece.winding.is_none() {
+                piece.tethers.tighten::<L>(points);
+            }
             let is_held = piece.is_held();
             match &mut piece.layout {
                 Layout::Sheet(sheet) => {
@@ -154,7 +168,7 @@ impl Kernel for Relax<'_> {
                     sheet.grid.sweep::<L>(&mut points.moving().0, lightened, &whole, &sheet.weave);
                 }
                 Layout::Loose(batches) => batches.sweep::<L>(points, lightened),
-                Layout::Rope => {}
+                Layout::Rope | Layout::Net(_) => {}
             }
         }
     }
@@ -195,13 +209,13 @@ impl SoftSolver {
     fn look_at_cloth<L: Lanes>(&mut self) {
         let mut number = 0;
         for piece in &self.pieces {
-            if let Layout::Rope = piece.layout {
+            if piece.is_rope() {
                 continue;
             }
             for tile in &piece.tiles {
                 let cone = match &piece.layout {
                     Layout::Sheet(sheet) => cone_of::<L>(&sheet.grid, tile, &self.points),
-                    Layout::Loose(_) | Layout::Rope => Cone::ALL,
+                    Layout::Loose(_) | Layout::Rope | Layout::Net(_) => Cone::ALL,
                 };
                 self.meetings.update_tile::<L>(number, &self.points, cone);
                 number += 1;
@@ -218,7 +232,7 @@ impl SoftSolver {
         let thinnest = self.pieces.iter().map(|piece| piece.thickness).fold(f32::INFINITY, f32::min);
         let margin = 2.0 * HASTE * LOOK_EVERY as f32 * fastest + 0.5 * thinnest;
         self.pieces.iter_mut().for_each(|piece| piece.fit_boxes::<L>(&self.points));
-        let is_cloth = |(_, piece): &(usize, &Piece)| !matches!(piece.layout, Layout::Rope);
+        let is_cloth = |(_, piece): &(usize, &Piece)| !piece.is_rope();
         let sheets = self.pieces.iter().enumerate().filter(is_cloth).map(|(number, piece)| Sheeting {
             piece: number as u32,
             tiles: &piece.tiles,
@@ -238,10 +252,15 @@ impl Kernel for PullRopes<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let SoftSolver { points, bundles, .. } = self.0;
+        let SoftSolver { points, pieces, bundles, lightened, .. } = self.0;
         let mut pivots: Vec<Pivot<L>> = Vec::new();
         for bundle in bundles {
             bundle.solve(points, &mut pivots);
+        }
+        for piece in pieces {
+            if let Layout::Net(batches) = &piece.layout {
+                (0..NET_SWEEPS).for_each(|_| batches.sweep::<L>(points, lightened));
+            }
         }
     }
 }
@@ -292,6 +311,8 @@ impl Kernel for SweepWindows<'_, '_> {
     }
 }
 
+/// How often the segments of a net are swept in a small step.
+const NET_SWEEPS: u32 = 4;
 /// Hot windows are looked for once in so many small steps.
 const HOT_EVERY: u32 = 4;
 /// How often a hot window is swept.

@@ -55,6 +55,8 @@ struct Near {
 pub(super) struct Strands {
     segments: Vec<Segment>,
     nears: Vec<Near>,
+    /// The pairs of places, ascending, of which one holds the other: segments of nets, and attachments.
+    links: Vec<[u32; 2]>,
 }
 
 impl Strands {
@@ -69,6 +71,13 @@ impl Strands {
 
     pub(super) fn is_empty(&self) -> bool {
         self.segments.is_empty()
+    }
+
+    /// Tells which places hold each other: what is at them does not touch.
+    pub(super) fn link(&mut self, links: impl Iterator<Item = [u32; 2]>) {
+        self.links.clear();
+        self.links.extend(links.map(|[a, b]| [a.min(b), a.max(b)]));
+        self.links.sort_unstable();
     }
 
     /// Lists what may touch while nothing moves by more than `margin` (m).
@@ -95,6 +104,8 @@ impl Strands {
             }
         }
         self.list_segments(&boxes, margin);
+        let links = &self.links;
+        self.nears.retain(|near| links.is_empty() || !are_linked(links, near.a, near.b));
     }
 
     /// Pairs of segments: swept along x.
@@ -139,7 +150,14 @@ fn bounds_of(segment: &Segment, points: &Points) -> Bounds {
 }
 
 fn may_touch(a: &Segment, b: &Segment) -> bool {
-    a.rope != b.rope || b.number - a.number > a.exempt
+    let shares_end = || a.ends.iter().any(|end| b.ends.contains(end));
+    a.rope != b.rope || (b.number - a.number > a.exempt && !shares_end())
+}
+
+/// Whether an end of one is held by an end of the other.
+fn are_linked(links: &[[u32; 2]], a: [u32; 2], b: [u32; 2]) -> bool {
+    let is_link = |a: u32, b: u32| links.binary_search(&[a.min(b), a.max(b)]).is_ok();
+    a.into_iter().any(|from| b.into_iter().any(|to| is_link(from, to)))
 }
 
 #[inline(always)]

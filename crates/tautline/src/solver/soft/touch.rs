@@ -201,6 +201,13 @@ impl Touch {
         self.place as usize
     }
 
+    /// Lets a particle through, if it is one of its own.
+    pub(super) fn exempt(&mut self, place: usize) {
+        if let Some(offset) = place.checked_sub(self.place()).and_then(|lane| self.offset.0.get_mut(lane)) {
+            *offset = f32::NEG_INFINITY;
+        }
+    }
+
     /// Moves its particles out of what it is about, with friction (Coulomb's law on displacements: the tangential one of
     /// this small step is taken back, by at most μ times what is corrected along the normal). Masses for the next sweep
     /// are written to `lightened`. Tells whether it has touched.

@@ -37,7 +37,7 @@ impl Kernel for Sweep<'_> {
 fn every_stick_is_in_a_batch_in_which_none_shares_its_particles() {
     let batches = Batches::new(&sticks());
     let mut found = Vec::new();
-    for batch in &batches.0 {
+    for batch in &batches.batches {
         let mut ends: Vec<u32> = batch.ends.iter().flat_map(|ends| ends[..batch.count].to_vec()).collect();
         found.extend((0..batch.count).map(|lane| [batch.ends[0][lane], batch.ends[1][lane]]));
         ends.sort_unstable();
@@ -54,7 +54,7 @@ fn every_stick_is_in_a_batch_in_which_none_shares_its_particles() {
 fn a_sweep_relaxes_batch_after_batch() {
     let batches = Batches::new(&sticks());
     let mut expected = in_f64(&cloud(PLACES, 1));
-    for batch in &batches.0 {
+    for batch in &batches.batches {
         for lane in 0..batch.count {
             let ends = batch.ends.map(|ends| ends[lane] as usize);
             relax_in_f64(&mut expected, &weights(PLACES), ends, batch.spans.map(|row| row.0[lane]));
@@ -70,6 +70,6 @@ fn few_colours_do_for_a_mesh() {
     let span = Span { low: 1.0, high: 1.0, compliance: 0.0 };
     let sticks: Vec<_> = cloth.body.sticks.iter().map(|stick| ([stick.a, stick.b], span)).collect();
     let batches = Batches::new(&sticks);
-    assert!(batches.0.len() * LANES < sticks.len() + 10 * LANES, "{} batches", batches.0.len());
-    assert!(Batches::new(&[]).0.is_empty());
+    assert!(batches.batches.len() * LANES < sticks.len() + 10 * LANES, "{} batches", batches.batches.len());
+    assert!(Batches::new(&[]).batches.is_empty());
 }
