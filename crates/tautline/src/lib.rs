@@ -118,7 +118,8 @@ mod view;
 mod world;
 
 pub use body::{
-    BodyKind, Cloth, CollisionGroups, Combine, HalfSpace, Motion, RigidBody, Rope, Surface, Truss, TrussBody,
+    BodyKind, Cloth, CollisionGroups, Combine, HalfSpace, Motion, RigidBody, Rope, SoftSolid, Surface, Truss,
+    TrussBody,
 };
 pub use error::{Error, MeshDefect};
 pub use events::{ContactEvent, ContactEventKind};

@@ -114,6 +114,7 @@ impl Rope {
             bendings: Vec::new(),
             grid: None,
             rigidity: None,
+            flesh: None,
             leaves: (0..last).map(|i| Feature::Segment([i, i + 1])).collect(),
             leaf_margin: self.radius,
             thickness: self.radius,
@@ -121,7 +122,16 @@ impl Rope {
         };
         let body = Deformable::new(parts, &self.points)?;
         let Self { points, velocity, mass, friction, pins, .. } = self;
-        Ok(BuiltDeformable { positions: points, body, velocity, mass, friction, pins })
+        let count = points.len();
+        let masses = vec![mass / count as f32; count];
+        Ok(BuiltDeformable {
+            positions: points,
+            body,
+            velocities: vec![velocity; count],
+            masses,
+            friction,
+            pins,
+        })
     }
 
     /// At every inner particle, what holds it as laid out and what keeps it from folding.

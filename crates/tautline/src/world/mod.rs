@@ -11,7 +11,7 @@ use std::sync::OnceLock;
 
 use glam::Vec3;
 
-use crate::body::{Body, Motion};
+use crate::body::{Body, BodyKind, Motion};
 use crate::collision::{Candidate, Contact, NarrowPhase, PairCache};
 use crate::error::Error;
 use crate::events::Contacts;
@@ -112,9 +112,13 @@ impl World {
     /// Changes how it is simulated, from the next step on.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] with the path of the first setting that is wrong; the old ones stay.
+    /// [`Error::OutOfRange`] with the path of the first setting that is wrong; [`Error::Invalid`] for the paper's solver of
+    /// cloth in a world with a soft solid. The old ones stay.
     pub fn set_settings(&mut self, settings: Settings) -> Result<(), Error> {
         settings.validate()?;
+        if self.bodies.iter().any(|body| body.kind() == BodyKind::SoftSolid) {
+            bodies::refuse_under(settings.cloth)?;
+        }
         self.settings = settings;
         self.rigid.invalidate();
         self.soft.invalidate();

@@ -2,6 +2,7 @@
 
 mod bits;
 mod closed;
+mod jelly;
 mod motion;
 mod rest;
 mod ropes;
