@@ -106,6 +106,7 @@ fn places_in(body: &mut Body) -> impl Iterator<Item = (String, Place<'_>)> {
     match body {
         Body::Rigid(rigid) => add_places("rigid.shape".to_owned(), &mut rigid.shape, &mut places),
         Body::Cloth(cloth) => places.push(("cloth.surface".to_owned(), Place::Surface(&mut cloth.surface))),
+        Body::SoftSolid(solid) => add_places("soft_solid.shape".to_owned(), &mut solid.shape, &mut places),
         Body::Rope(_) | Body::HalfSpace(_) | Body::Room(_) => {}
     }
     places.into_iter()

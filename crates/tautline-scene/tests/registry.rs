@@ -19,8 +19,8 @@ fn with(name: &str, assignments: &[&str]) -> Scene {
     scene.document(&parameters)
 }
 
-/// The scenes with what bodies of sticks do not have.
-const NOT_FOR_PAPER: [&str; 4] = ["bullets", "mixed-pile", "chain", "ragdoll"];
+/// The scenes with what the paper does not have.
+const NOT_FOR_PAPER: [&str; 5] = ["bullets", "mixed-pile", "chain", "ragdoll", "jelly"];
 
 /// A scene's document for each solver that it is for.
 fn documents(scene: &NamedScene) -> Vec<Scene> {

@@ -121,7 +121,8 @@ mod world;
 
 pub use attachment::{Anchor, Attachment, AttachmentHandle, AttachmentView};
 pub use body::{
-    BodyKind, Cloth, CollisionGroups, Combine, HalfSpace, Motion, RigidBody, Rope, Surface, Truss, TrussBody,
+    BodyKind, Cloth, CollisionGroups, Combine, HalfSpace, Motion, RigidBody, Rope, SoftSolid, Surface, Truss,
+    TrussBody,
 };
 pub use error::{Error, MeshDefect};
 pub use events::{ContactEvent, ContactEventKind};

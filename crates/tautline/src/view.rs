@@ -85,6 +85,16 @@ impl<'a> BodyView<'a> {
         }
     }
 
+    /// The tetrahedra of a soft solid, over its particles; those that were as good as flat are left out. Empty for others.
+    pub fn tetrahedra(&self) -> &'a [[u32; 4]] {
+        match &self.body.substance {
+            Substance::Deformable(deformable) => {
+                deformable.flesh.as_ref().map_or(&[], |flesh| &flesh.corners)
+            }
+            Substance::Rigid(_) | Substance::Truss { .. } | Substance::HalfSpace(_) => &[],
+        }
+    }
+
     /// Its shape, if it is a rigid body of four particles.
     pub fn shape(&self) -> Option<&'a Arc<Shape>> {
         self.body.rigid().map(|rigid| &rigid.shape)

@@ -10,11 +10,12 @@ use super::attachment::{anchor, strength};
 use super::joint::joint;
 use super::rigid::{rigid_body, surface, truss_body};
 use super::shape::{Make, Solids, triangles, unread};
+use super::soft::soft_solid;
 use super::wall;
 use super::{Look, Part};
 use crate::document::{
     Anchor, Attachment, Body, BodyRef, Cloth, Color, HalfSpace, Joint, Motion, Pin, Rigid, Room, Rope,
-    RopeEnd, Rotation, SheetPlace, Surface, Thread,
+    RopeEnd, Rotation, SheetPlace, SoftSolid, Surface, Thread,
 };
 use crate::render::palette;
 
@@ -64,6 +65,7 @@ impl Builder {
             Body::Rigid(rigid) => self.add_rigid(name, rigid),
             Body::Cloth(cloth) => self.add_cloth(name, cloth),
             Body::Rope(rope) => self.add_rope(name, rope),
+            Body::SoftSolid(solid) => self.add_soft_solid(name, solid),
             Body::HalfSpace(half_space) => self.add_half_space(name, half_space),
             Body::Room(room) => return self.add_room(&name, room),
         }?;
@@ -160,6 +162,13 @@ impl Builder {
         }
         let color = self.color(rope.color);
         self.push(name, color, body, Look::Tube { radius: rope.radius });
+        Ok(())
+    }
+
+    fn add_soft_solid(&mut self, name: String, solid: &SoftSolid) -> Result<(), Refusal> {
+        let body = self.world.add(soft_solid(solid)?)?;
+        let color = self.color(solid.color);
+        self.push(name, color, body, Look::Sheet);
         Ok(())
     }
 

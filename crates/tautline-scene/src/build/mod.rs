@@ -6,6 +6,7 @@ mod joint;
 mod rigid;
 mod settings;
 mod shape;
+mod soft;
 mod wall;
 
 use std::sync::Arc;

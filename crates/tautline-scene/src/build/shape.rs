@@ -123,7 +123,7 @@ fn compound(parts: &[PartOfCompound]) -> Result<tautline::Shape, Error> {
 }
 
 /// The surface of a solid; faceted where it is round.
-fn mesh_of(shape: &Shape) -> Result<TriMesh, Error> {
+pub(super) fn mesh_of(shape: &Shape) -> Result<TriMesh, Error> {
     match *shape {
         Shape::Box { size } => primitives::cuboid(Vec3::from(size) / 2.0),
         Shape::Tetrahedron { radius } => primitives::tetrahedron(radius),

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::rigid::Rigid;
 use super::shape::{Surface, Thread};
+use super::soft::SoftSolid;
 use super::value::{Color, Pin, RopeEnd, Rotation, SheetPlace, Weight};
 
 /// One thing in the scene.
@@ -17,6 +18,8 @@ pub enum Body {
     Cloth(Cloth),
     /// A rope.
     Rope(Rope),
+    /// A solid that gives.
+    SoftSolid(SoftSolid),
     /// An unmoving plane with everything behind it solid.
     HalfSpace(HalfSpace),
     /// The inside of an unmoving box.
@@ -231,6 +234,7 @@ impl Body {
             Self::Rigid(Rigid { name, .. })
             | Self::Cloth(Cloth { name, .. })
             | Self::Rope(Rope { name, .. })
+            | Self::SoftSolid(SoftSolid { name, .. })
             | Self::HalfSpace(HalfSpace { name, .. })
             | Self::Room(Room { name, .. }) => name.as_deref(),
         }
@@ -242,6 +246,7 @@ impl Body {
             Self::Rigid(_) => "rigid",
             Self::Cloth(_) => "cloth",
             Self::Rope(_) => "rope",
+            Self::SoftSolid(_) => "soft_solid",
             Self::HalfSpace(_) => "half_space",
             Self::Room(_) => "room",
         }
@@ -252,6 +257,7 @@ impl Body {
         match self {
             Self::Rigid(rigid) => rigid.shape.triangle_count(),
             Self::Cloth(cloth) => cloth.surface.triangle_count(),
+            Self::SoftSolid(solid) => solid.shape.triangle_count(),
             Self::Rope(_) | Self::HalfSpace(_) | Self::Room(_) => 0,
         }
     }
@@ -264,6 +270,7 @@ impl Body {
             Self::Rigid(_) => 4,
             Self::Cloth(cloth) => cloth.surface.vertex_count(),
             Self::Rope(rope) => rope.path.point_count(),
+            Self::SoftSolid(solid) => solid.particle_count(),
             Self::HalfSpace(_) | Self::Room(_) => 0,
         }
     }

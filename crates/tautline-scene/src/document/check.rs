@@ -50,6 +50,12 @@ pub(super) const ANGLE: Rule =
 /// An opening angle, in degrees.
 pub(super) const OPENING: Rule =
     Rule { holds: |x| x > 0.0 && x < 180.0, expected: "a number of degrees between 0 and 180" };
+/// Young's modulus, in Pa.
+pub(super) const MODULUS: Rule =
+    Rule { holds: |x| (1e-6..=1e15).contains(&x), expected: "a number from 1e-6 to 1e15" };
+/// How much narrower than longer a soft solid gets.
+pub(super) const POISSON_RATIO: Rule =
+    Rule { holds: |x| (0.0..=0.49).contains(&x), expected: "a number from 0 to 0.49" };
 /// A compliance, or the strength of a motor.
 pub(super) const UP_TO_HUGE: Rule =
     Rule { holds: |x| (0.0..=1e20).contains(&x), expected: "a number from 0 to 1e20" };

@@ -15,6 +15,7 @@ mod parse;
 mod rigid;
 mod settings;
 mod shape;
+mod soft;
 mod validate;
 mod value;
 
@@ -28,6 +29,7 @@ pub use parse::{Format, parse};
 pub use rigid::{Damping, Groups, Motion, Rigid};
 pub use settings::{BroadPhase, Ordering, Settings, Sleep, Solver, SquareRoot};
 pub use shape::{MeshFile, MeshSource, PartOfCompound, Shape, Surface, Thread};
+pub use soft::SoftSolid;
 pub use value::{AxisAngle, BodyRef, Color, Pin, RopeEnd, Rotation, SheetPlace, Weight};
 
 /// The version of the format that this crate reads and writes.

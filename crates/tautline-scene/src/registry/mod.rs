@@ -5,6 +5,7 @@ mod balance;
 mod chain;
 mod cloth;
 mod impact;
+mod jelly;
 mod parameter;
 mod ragdoll;
 mod rigid;
@@ -66,6 +67,7 @@ pub fn scenes() -> &'static [NamedScene] {
         rope::CATENARY,
         rope::WHIP,
         together::HAMMOCK,
+        jelly::JELLY,
     ]
 }
 

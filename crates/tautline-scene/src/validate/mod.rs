@@ -10,12 +10,15 @@ mod case;
 mod cloud;
 mod collide;
 mod depth;
+mod drape;
 mod flight;
 mod lab;
 mod peers;
+mod pulley;
 mod reverse;
 mod roll;
 mod room;
+mod rope;
 mod slope;
 mod spin;
 mod stack;
@@ -41,6 +44,9 @@ pub fn cases() -> Vec<Case> {
     cases.extend(room::cases());
     cases.extend(cloud::cases());
     cases.extend(reverse::cases());
+    cases.extend(rope::cases());
+    cases.extend(pulley::cases());
+    cases.extend(drape::cases());
     cases.sort_by_key(|case| case.id);
     cases
 }

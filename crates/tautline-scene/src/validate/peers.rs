@@ -37,7 +37,7 @@ const fn figure(id: u32, quantity: &'static str, demand: f64, errors: [Option<f6
     Figure { id, quantity, demand, errors }
 }
 
-const FIGURES: [Figure; 21] = [
+const FIGURES: [Figure; 22] = [
     figure(1, "m", 1e-4, [Some(0.041), Some(0.020)]),
     figure(2, "m", 2e-5, [Some(2e-5), None]),
     figure(3, "share of the first apex", 1e-3, [Some(0.018), None]),
@@ -57,6 +57,7 @@ const FIGURES: [Figure; 21] = [
     figure(18, "share of the energy", 1e-3, [Some(0.048), Some(0.22)]),
     figure(19, "share of the time", 3e-3, [Some(0.092), None]),
     figure(20, "share of the sag", 2e-4, [Some(0.268), None]),
+    figure(21, "share of the length, 10 ×", 1e-3, [Some(0.22), None]),
     figure(22, "bullets that got through", 0.0, [Some(0.0), Some(40.0)]),
     figure(23, "mm of penetration", 5.0, [Some(43.6), None]),
 ];

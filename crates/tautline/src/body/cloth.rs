@@ -163,6 +163,7 @@ impl Cloth {
         let parts = Parts {
             grid,
             rigidity: None,
+            flesh: None,
             bendings: bendings(&half_edges, rest, self.bending_compliance),
             triangles: mesh.triangles,
             sticks,
@@ -174,7 +175,9 @@ impl Cloth {
         };
         let body = Deformable::new(parts, rest)?;
         let Self { velocity, mass, friction, pins, .. } = self;
-        Ok(BuiltDeformable { positions, body, velocity, mass, friction, pins })
+        let count = positions.len();
+        let masses = vec![mass / count as f32; count];
+        Ok(BuiltDeformable { positions, body, velocities: vec![velocity; count], masses, friction, pins })
     }
 
     fn validate(&self) -> Result<(), Error> {

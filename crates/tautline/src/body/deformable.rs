@@ -1,8 +1,9 @@
-//! What cloth and rope have in common: sticks, angles, and a layered sphere tree.
+//! What cloth, rope and soft solids have in common: sticks, angles, flesh, and a layered sphere tree.
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
+use super::flesh::Flesh;
 use crate::constraint::{Angle, Bending, Stick};
 use crate::error::Error;
 use crate::geometry::sphere_tree::{DescentStack, Feature, LayeredTree, descend_self};
@@ -10,7 +11,7 @@ use crate::geometry::sphere_tree::{DescentStack, Feature, LayeredTree, descend_s
 /// A body without a shape of its own.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Deformable {
-    /// The surface of a cloth, in triangles; none for a rope.
+    /// The surface of a cloth or soft solid, in triangles; none for a rope.
     pub(crate) triangles: Vec<[u32; 3]>,
     pub(crate) sticks: Vec<Stick>,
     pub(crate) angles: Vec<Angle>,
@@ -20,6 +21,8 @@ pub(crate) struct Deformable {
     pub(crate) grid: Option<GridShape>,
     /// Flexural rigidity, in N m; `None` = limp.
     pub(crate) rigidity: Option<f32>,
+    /// The inside of a soft solid.
+    pub(crate) flesh: Option<Flesh>,
     /// How far from a solid its particles and leaf centres are kept, in m.
     pub(crate) thickness: f32,
     /// `None` if it passes through itself.
@@ -61,6 +64,7 @@ pub(crate) struct Parts {
     pub(crate) bendings: Vec<Bending>,
     pub(crate) grid: Option<GridShape>,
     pub(crate) rigidity: Option<f32>,
+    pub(crate) flesh: Option<Flesh>,
     pub(crate) leaves: Vec<Feature>,
     /// Added to the radius of every leaf sphere, in m.
     pub(crate) leaf_margin: f32,
@@ -68,12 +72,14 @@ pub(crate) struct Parts {
     pub(crate) self_collision: bool,
 }
 
-/// What a cloth or rope becomes in a world.
+/// What a cloth, rope or soft solid becomes in a world.
 pub(crate) struct BuiltDeformable {
     pub(crate) positions: Vec<Vec3>,
     pub(crate) body: Deformable,
-    pub(crate) velocity: Vec3,
-    pub(crate) mass: f32,
+    /// Of each particle, in m/s.
+    pub(crate) velocities: Vec<Vec3>,
+    /// Of each particle, in kg.
+    pub(crate) masses: Vec<f32>,
     pub(crate) friction: f32,
     pub(crate) pins: Vec<u32>,
 }
@@ -82,7 +88,7 @@ impl Deformable {
     pub(crate) fn new(parts: Parts, rest: &[Vec3]) -> Result<Self, Error> {
         let tree = LayeredTree::new(&parts.leaves, rest, parts.leaf_margin)?;
         let neighbours = parts.self_collision.then(|| Neighbours::of(&tree));
-        let Parts { triangles, sticks, angles, bendings, grid, rigidity, thickness, .. } = parts;
+        let Parts { triangles, sticks, angles, bendings, grid, rigidity, flesh, thickness, .. } = parts;
         Ok(Self {
             triangles,
             sticks,
@@ -90,6 +96,7 @@ impl Deformable {
             bendings,
             grid,
             rigidity,
+            flesh,
             tree,
             thickness,
             neighbours,
@@ -98,11 +105,11 @@ impl Deformable {
         })
     }
 
-    /// Particles along its longer side, about.
+    /// Particles along the longer side of a sheet, about; sticks are what needs more small steps, the more the finer.
     pub(crate) fn fineness(&self, particles: usize) -> usize {
         match &self.grid {
             Some(grid) => grid.columns.max(grid.rows) as usize,
-            None if self.is_rope() => 0,
+            None if self.sticks.is_empty() || self.is_rope() => 0,
             None => (particles as f32).sqrt() as usize,
         }
     }
@@ -137,8 +144,13 @@ impl Deformable {
             })
             && self.thickness >= 0.0
             && self.winding.is_none_or(|length| self.is_rope() && self.check_length(length).is_ok())
+            && self.flesh.as_ref().is_none_or(|flesh| flesh.is_sound(particle_count))
             && self.neighbours.as_ref().is_none_or(|n| n.is_valid(self.tree.topology().leaf_count()));
-        if sound { Ok(()) } else { Err(Error::Snapshot("a cloth or rope is inconsistent".into())) }
+        if sound {
+            Ok(())
+        } else {
+            Err(Error::Snapshot("a cloth, rope or soft solid is inconsistent".into()))
+        }
     }
 }
 

@@ -3,10 +3,12 @@
 
 mod cloth;
 mod deformable;
+mod flesh;
 mod half_space;
 mod pose;
 mod rigid;
 mod rope;
+mod soft_solid;
 mod surface;
 mod truss;
 
@@ -23,10 +25,12 @@ pub use cloth::{Cloth, Corner};
 pub use half_space::HalfSpace;
 pub use rigid::{CollisionGroups, Motion, RigidBody};
 pub use rope::Rope;
+pub use soft_solid::SoftSolid;
 pub use surface::{Combine, Surface};
 pub use truss::{Truss, TrussBody};
 
 pub(crate) use deformable::{BuiltDeformable, Deformable};
+pub(crate) use flesh::{Flesh, Material, RestShape};
 pub(crate) use rigid::{CORNERS, Frame, Rigid, Traits, rigid_motion};
 pub(crate) use surface::Touch;
 
@@ -41,6 +45,8 @@ pub enum BodyKind {
     Cloth,
     /// A rope.
     Rope,
+    /// A soft solid.
+    SoftSolid,
     /// Everything behind a plane.
     HalfSpace,
 }
@@ -57,6 +63,8 @@ pub enum BodyDescription {
     Cloth(Cloth),
     /// A rope.
     Rope(Rope),
+    /// A soft solid.
+    SoftSolid(Box<SoftSolid>),
     /// Everything behind a plane.
     HalfSpace(HalfSpace),
 }
@@ -71,6 +79,12 @@ macro_rules! describe {
     };
 }
 describe!(RigidBody => Rigid, TrussBody => Truss, Cloth => Cloth, Rope => Rope, HalfSpace => HalfSpace);
+
+impl From<SoftSolid> for BodyDescription {
+    fn from(builder: SoftSolid) -> Self {
+        Self::SoftSolid(Box::new(builder))
+    }
+}
 
 /// A body in a world.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -121,6 +135,7 @@ impl Body {
             Substance::Rigid(_) => BodyKind::Rigid,
             Substance::Truss { .. } => BodyKind::Truss,
             Substance::Deformable(deformable) if deformable.is_rope() => BodyKind::Rope,
+            Substance::Deformable(deformable) if deformable.flesh.is_some() => BodyKind::SoftSolid,
             Substance::Deformable(_) => BodyKind::Cloth,
             Substance::HalfSpace(_) => BodyKind::HalfSpace,
         }
@@ -157,7 +172,7 @@ impl Body {
         self.is_awake() && !self.is_rigid()
     }
 
-    /// Whether it is cloth or rope.
+    /// Whether it is cloth, rope or a soft solid.
     pub(crate) fn is_soft(&self) -> bool {
         matches!(self.substance, Substance::Deformable(_))
     }

@@ -136,6 +136,7 @@ impl Rope {
             bendings: Vec::new(),
             grid: None,
             rigidity: None,
+            flesh: None,
             leaves: self.segments.iter().map(|&ends| Feature::Segment(ends)).collect(),
             leaf_margin: self.radius,
             thickness: self.radius,
@@ -143,7 +144,16 @@ impl Rope {
         };
         let body = Deformable::new(parts, &self.points)?;
         let Self { points, velocity, mass, friction, pins, .. } = self;
-        Ok(BuiltDeformable { positions: points, body, velocity, mass, friction, pins })
+        let count = points.len();
+        let masses = vec![mass / count as f32; count];
+        Ok(BuiltDeformable {
+            positions: points,
+            body,
+            velocities: vec![velocity; count],
+            masses,
+            friction,
+            pins,
+        })
     }
 
     /// Where segments meet, what holds each two of them as laid out and what keeps them from folding.

@@ -9,14 +9,16 @@ use crate::body::{
     Body, BodyDescription, BuiltDeformable, HalfSpace, Motion, RigidBody, Substance, Surface, TrussBody,
 };
 use crate::error::{Error, positive, within};
+use crate::settings::ClothSolver;
 use crate::slots::BodyHandle;
 
 impl World {
-    /// Adds a body: a [`TrussBody`], [`Cloth`](crate::body::Cloth), [`Rope`](crate::body::Rope) or
-    /// [`HalfSpace`].
+    /// Adds a body: a [`RigidBody`], [`TrussBody`], [`Cloth`](crate::body::Cloth), [`Rope`](crate::body::Rope),
+    /// [`SoftSolid`](crate::body::SoftSolid) or [`HalfSpace`].
     ///
     /// # Errors
-    /// What is wrong with the description, by field; the world is as before.
+    /// What is wrong with the description, by field; [`Error::Invalid`] for a soft solid where the paper's solver moves
+    /// cloth and rope. The world is as before.
     pub fn add(&mut self, body: impl Into<BodyDescription>) -> Result<BodyHandle, Error> {
         match body.into() {
             BodyDescription::Rigid(body) => self.add_rigid(&body),
@@ -28,6 +30,11 @@ impl World {
             }
             BodyDescription::Rope(rope) => {
                 let built = rope.build()?;
+                self.add_deformable(built)
+            }
+            BodyDescription::SoftSolid(solid) => {
+                refuse_under(self.settings.cloth)?;
+                let built = solid.build()?;
                 self.add_deformable(built)
             }
         }
@@ -72,9 +79,15 @@ impl World {
     }
 
     fn add_deformable(&mut self, built: BuiltDeformable) -> Result<BodyHandle, Error> {
-        let particle_mass = check_particle_mass(built.mass, built.positions.len())?;
-        let range = self.particles.extend(&built.positions, particle_mass, false);
-        self.particles.displacement[range.clone()].fill(built.velocity);
+        for &mass in &built.masses {
+            check_particle_mass(mass, 1)?;
+        }
+        let range = self.particles.extend(&built.positions, 1.0, false);
+        self.particles.displacement[range.clone()].copy_from_slice(&built.velocities);
+        for (i, mass) in range.clone().zip(built.masses) {
+            self.particles.mass[i] = mass;
+            self.particles.inverse_mass[i] = 1.0 / mass;
+        }
         for pin in built.pins {
             let particle = range.start + pin as usize;
             self.particles.inverse_mass[particle] = 0.0;
@@ -119,6 +132,17 @@ impl World {
         }
         let_go.into_iter().for_each(|body| self.wake_body(body as usize));
         Ok(())
+    }
+}
+
+/// Refuses soft solids where they would have no inside.
+pub(super) fn refuse_under(cloth: ClothSolver) -> Result<(), Error> {
+    match cloth {
+        ClothSolver::SmallSteps => Ok(()),
+        ClothSolver::Paper => {
+            let problem = "the paper's solver knows no soft solids: SmallSteps moves them".into();
+            Err(Error::Invalid { field: "settings.cloth".into(), problem })
+        }
     }
 }
 

@@ -13,7 +13,7 @@ use std::sync::OnceLock;
 use glam::Vec3;
 
 use crate::attachment::Attachments;
-use crate::body::{Body, Motion};
+use crate::body::{Body, BodyKind, Motion};
 use crate::collision::{Candidate, Contact, NarrowPhase, PairCache};
 use crate::error::Error;
 use crate::events::Contacts;
@@ -116,13 +116,16 @@ impl World {
     /// Changes how it is simulated, from the next step on.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] with the path of the first setting that is wrong, [`Error::Invalid`] if cloth is to be the
-    /// paper's solver's while there are attachments; the old ones stay.
+    /// [`Error::OutOfRange`] with the path of the first setting that is wrong; [`Error::Invalid`] if cloth is to be the
+    /// paper's solver's while there are attachments or soft solids. The old ones stay.
     pub fn set_settings(&mut self, settings: Settings) -> Result<(), Error> {
         settings.validate()?;
         if settings.cloth == ClothSolver::Paper && self.attachments().len() > 0 {
             let problem = "is the paper's solver, which knows no attachments: detach them first".into();
             return Err(Error::Invalid { field: "cloth".into(), problem });
+        }
+        if self.bodies.iter().any(|body| body.kind() == BodyKind::SoftSolid) {
+            bodies::refuse_under(settings.cloth)?;
         }
         self.settings = settings;
         self.rigid.invalidate();

@@ -4,6 +4,7 @@ mod attach;
 mod attach_handles;
 mod bits;
 mod closed;
+mod jelly;
 mod motion;
 mod nets;
 mod rest;

@@ -4,6 +4,7 @@ mod attachment;
 mod joint;
 mod rigid;
 mod shape;
+mod soft;
 
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -21,6 +22,7 @@ use attachment::check_attachments;
 use joint::check_joints;
 use rigid::check_rigid;
 use shape::check_surface;
+use soft::check_soft_solid;
 
 /// What is said of a field that a truss does not know.
 const NOT_OF_TRUSSES: &str = "only the solver \"default\" knows it";
@@ -128,6 +130,7 @@ fn check_body(c: &mut Checker, body: &Body, has_trusses: bool) {
         Body::Rigid(rigid) => check_rigid(c, rigid, has_trusses),
         Body::Cloth(cloth) => check_cloth(c, cloth),
         Body::Rope(rope) => check_rope(c, rope),
+        Body::SoftSolid(solid) => check_soft_solid(c, solid, has_trusses),
         Body::HalfSpace(HalfSpace { normal, offset, friction, restitution, rolling_friction, .. }) => {
             c.direction("normal", normal);
             c.number("offset", *offset, COORDINATE);

@@ -14,6 +14,7 @@ mod boxes;
 mod conforming;
 mod delaunay;
 mod filling;
+mod lattice;
 mod predicates;
 mod quality;
 mod search;
@@ -27,17 +28,18 @@ use glam::{DVec3, Vec3};
 use super::TriMesh;
 use crate::{Error, MeshDefect};
 use filling::{Cavity, Filling};
+pub use lattice::lattice;
 use predicates::{Face, Tet};
 
 /// The inside of a closed surface as tetrahedra.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tetrahedra {
-    /// The surface's vertices in their order, then the interior points; in m.
+    /// In m; of a divided surface its vertices in their order, then the interior points.
     pub points: Vec<Vec3>,
     /// Four indices into `points` each; the first three run counter-clockwise seen from the fourth.
     pub tetrahedra: Vec<[u32; 4]>,
-    /// How many points at the end of `points` were added inside. Few, but not proven to be
-    /// the fewest.
+    /// How many points lie inside. Of a divided surface they are at the end of `points`, and few, but not proven to be the
+    /// fewest.
     pub interior_points: usize,
 }
 

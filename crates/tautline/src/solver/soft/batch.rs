@@ -12,6 +12,27 @@ struct Batch {
     count: usize,
 }
 
+/// Numbers of groups of places, in batches of at most eight groups of which no two have a place in common. Each goes to the
+/// first colour in which none has a place of it (greedy colouring).
+pub(super) fn without_sharing<const N: usize>(groups: &[[u32; N]]) -> Vec<Vec<usize>> {
+    let mut colours: Vec<Vec<usize>> = Vec::new();
+    let places = groups.iter().flatten().max().map_or(0, |&most| most as usize + 1);
+    let mut taken: Vec<u64> = vec![0; places];
+    for (number, group) in groups.iter().enumerate() {
+        let used = group.iter().fold(0, |used, &place| used | taken[place as usize]);
+        // What has no colour left goes alone.
+        let colour = used.trailing_ones().min(63) as usize;
+        if colour >= colours.len() {
+            colours.resize(colour + 1, Vec::new());
+        }
+        colours[colour].push(number);
+        group.iter().for_each(|&place| taken[place as usize] |= 1 << colour);
+    }
+    let size = |colour| if colour == 63 { 1 } else { LANES };
+    let batches = colours.iter().enumerate();
+    batches.flat_map(|(colour, members)| members.chunks(size(colour)).map(<[usize]>::to_vec)).collect()
+}
+
 /// All sticks of a piece.
 #[derive(Debug, Clone)]
 pub(super) struct Batches {
@@ -21,26 +42,10 @@ pub(super) struct Batches {
 }
 
 impl Batches {
-    /// Of sticks between places. Each goes to the first colour in which none has an end of it (greedy colouring).
+    /// Of sticks between places.
     pub(super) fn new(sticks: &[([u32; 2], Span)]) -> Self {
-        let mut colours: Vec<Vec<usize>> = Vec::new();
-        let places = sticks.iter().flat_map(|(ends, _)| ends).max().map_or(0, |&most| most as usize + 1);
-        let mut taken: Vec<u64> = vec![0; places];
-        for (number, (ends, _)) in sticks.iter().enumerate() {
-            let used = taken[ends[0] as usize] | taken[ends[1] as usize];
-            // What has no colour left goes alone.
-            let colour = used.trailing_ones().min(63) as usize;
-            if colour >= colours.len() {
-                colours.resize(colour + 1, Vec::new());
-            }
-            colours[colour].push(number);
-            ends.iter().for_each(|&end| taken[end as usize] |= 1 << colour);
-        }
-        let mut batches = Vec::new();
-        for (colour, members) in colours.iter().enumerate() {
-            let size = if colour == 63 { 1 } else { LANES };
-            batches.extend(members.chunks(size).map(|chunk| Batch::new(sticks, chunk)));
-        }
+        let ends: Vec<[u32; 2]> = sticks.iter().map(|(ends, _)| *ends).collect();
+        let batches = without_sharing(&ends).iter().map(|members| Batch::new(sticks, members)).collect();
         Self { batches, scale: 1.0 }
     }
 

@@ -1,4 +1,4 @@
-//! The solver of cloth and rope: small steps, many to a substep, each with one pass over everything.
+//! The solver of cloth, rope and soft solids: small steps, many to a substep, each with one pass over everything.
 //!
 //! At the same cost, one sweep in each of many small steps leaves ten to twenty times less stretch than many sweeps in a
 //! few. What a sweep spreads slowly along a sheet or rope is solved in whole threads at once, and what hangs on held
@@ -8,6 +8,7 @@
 mod attach;
 mod batch;
 mod bend;
+mod elastic;
 mod grid;
 mod hinge;
 mod hot;

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::batch::Batches;
+use super::elastic::Elastic;
 use super::grid::Grid;
 use super::hinge::Hinges;
 use super::meet::{Exempt, lay_flat};
@@ -17,7 +18,11 @@ use crate::constraint::Stick;
 use crate::particles::Particles;
 use crate::simd::{LANES, Lanes};
 
-/// A cloth or rope that is awake.
+/// Soft solids are not kept from themselves where they were nearer than this, in the distances they are kept: what lies
+/// between holds them apart.
+const SQUEEZE: f32 = 2.0;
+
+/// A cloth, rope or soft solid that is awake.
 #[derive(Debug, Clone)]
 pub(super) struct Piece {
     /// The body's index in the world.
@@ -51,6 +56,8 @@ pub(super) enum Layout {
     Sheet(Box<Sheet>),
     /// In any order.
     Loose(Batches),
+    /// As tetrahedra instead.
+    Solid(Elastic),
     /// With others, in a bundle.
     Rope,
     /// Segments in any order, last.
@@ -84,10 +91,11 @@ impl Piece {
                 let places = start..start + count.next_multiple_of(LANES);
                 let placed = |stick: &Stick| ([stick.a + start as u32, stick.b + start as u32], span(stick));
                 let batches = || Batches::new(&deformable.sticks.iter().map(placed).collect::<Vec<_>>());
-                let layout = match (deformable.is_rope(), deformable.is_chain()) {
-                    (false, _) => Layout::Loose(batches()),
-                    (true, false) => Layout::Net(batches()),
-                    (true, true) => Layout::Rope,
+                let layout = match (&deformable.flesh, deformable.is_rope(), deformable.is_chain()) {
+                    (Some(flesh), ..) => Layout::Solid(Elastic::new(flesh, masses, start)),
+                    (None, false, _) => Layout::Loose(batches()),
+                    (None, true, false) => Layout::Net(batches()),
+                    (None, true, true) => Layout::Rope,
                 };
                 (layout, places.clone(), tiles_of_run(places))
             }
@@ -122,7 +130,9 @@ impl Piece {
             Layout::Sheet(sheet) => {
                 sheet.grid.place(particle / sheet.grid.columns, particle % sheet.grid.columns)
             }
-            Layout::Loose(_) | Layout::Rope | Layout::Net(_) => self.places.start + particle,
+            Layout::Loose(_) | Layout::Solid(_) | Layout::Rope | Layout::Net(_) => {
+                self.places.start + particle
+            }
         }
     }
 
@@ -134,13 +144,17 @@ impl Piece {
         if held == self.held {
             return;
         }
+        self.held = held;
+        if let Layout::Solid(_) = self.layout {
+            // It may stretch.
+            return;
+        }
         let count = body.particles.len();
         let distances = |from: u32| match &deformable.grid {
             Some(grid) => grid.distances(from),
             None => distances_along(&deformable.sticks, count, from),
         };
-        self.tethers = Tethers::new(&held, count, distances, |particle| self.place(particle));
-        self.held = held;
+        self.tethers = Tethers::new(&self.held, count, distances, |particle| self.place(particle));
     }
 
     /// Whether it is a rope or net, and no cloth.
@@ -163,6 +177,10 @@ impl Piece {
             let [along, down] = shape.edges;
             lay_flat(&sheet.grid, shape.edges, material);
             return Exempt::Within(distance.max((along * along + down * down).sqrt()) * 1.001);
+        }
+        if let Some(flesh) = &deformable.flesh {
+            let count = flesh.edges.iter().map(|edge| edge.a.max(edge.b) as usize + 1).max().unwrap_or(0);
+            return Exempt::along(&flesh.edges, count, self.places.start, distance * SQUEEZE);
         }
         let count =
             deformable.sticks.iter().map(|stick| stick.a.max(stick.b)).max().map_or(0, |last| last + 1);

@@ -4,6 +4,7 @@ use glam::Vec3;
 
 use super::SoftSolver;
 use super::attach::Moment;
+use super::elastic::Stiffen;
 use super::hinge;
 use super::patch::{Cone, cone_of};
 use super::piece::{Layout, Piece};
@@ -66,6 +67,7 @@ impl SoftSolver {
             until_search -= 1;
             self.load_ties(solids, timing.moment(number));
             run(instructions, Relax(self));
+            run(instructions, Stiffen(self, timing.small));
             self.turn_hinges(timing.small);
             run(instructions, Part(self, timing.recovery * timing.small));
             run(instructions, PullRopes(self));
@@ -168,7 +170,7 @@ impl Kernel for Relax<'_> {
                     sheet.grid.sweep::<L>(&mut points.moving().0, lightened, &whole, &sheet.weave);
                 }
                 Layout::Loose(batches) => batches.sweep::<L>(points, lightened),
-                Layout::Rope | Layout::Net(_) => {}
+                Layout::Rope | Layout::Net(_) | Layout::Solid(_) => {}
             }
         }
     }
@@ -215,7 +217,7 @@ impl SoftSolver {
             for tile in &piece.tiles {
                 let cone = match &piece.layout {
                     Layout::Sheet(sheet) => cone_of::<L>(&sheet.grid, tile, &self.points),
-                    Layout::Loose(_) | Layout::Rope | Layout::Net(_) => Cone::ALL,
+                    Layout::Loose(_) | Layout::Solid(_) | Layout::Rope | Layout::Net(_) => Cone::ALL,
                 };
                 self.meetings.update_tile::<L>(number, &self.points, cone);
                 number += 1;

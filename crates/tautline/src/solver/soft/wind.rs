@@ -29,7 +29,7 @@ impl SoftSolver {
                     self.bundles.iter_mut().for_each(|bundle| bundle.scale(start, factor));
                 }
                 Layout::Net(batches) => batches.scale = factor,
-                Layout::Sheet(_) | Layout::Loose(_) => {}
+                Layout::Sheet(_) | Layout::Loose(_) | Layout::Solid(_) => {}
             }
         }
     }

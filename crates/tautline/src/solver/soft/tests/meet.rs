@@ -126,7 +126,7 @@ impl Kernel for Look {
 
     #[inline(always)]
     fn run<L: Lanes>(mut self) -> Scene {
-        self.0.look::<L>(self.1, 1.0);
+        self.0.look::<L>(self.1);
         self.0
     }
 }
