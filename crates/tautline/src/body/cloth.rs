@@ -1,5 +1,7 @@
 //! Cloth: a sheet of particles with sticks on the edges of its triangles (paper, 4).
 
+mod fabric;
+
 use glam::{Quat, Vec3};
 
 use super::deformable::{BuiltDeformable, Deformable, GridShape, Parts};
@@ -21,6 +23,7 @@ pub struct Cloth {
     self_collision: bool,
     bending_compliance: Option<f32>,
     pins: Vec<u32>,
+    wish: fabric::Wish,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -66,6 +69,7 @@ impl Cloth {
             self_collision: true,
             bending_compliance: None,
             pins: Vec::new(),
+            wish: fabric::Wish::default(),
         }
     }
 
@@ -164,13 +168,14 @@ impl Cloth {
             grid,
             rigidity: None,
             bendings: bendings(&half_edges, rest, self.bending_compliance),
-            triangles: mesh.triangles,
             sticks,
             angles: Vec::new(),
             leaves,
             leaf_margin: 0.0,
             thickness: self.thickness.unwrap_or(0.6 * mean_edge),
             self_collision: self.self_collision,
+            fabric: self.wish.fabric(&mesh, &half_edges)?,
+            triangles: mesh.triangles,
         };
         let body = Deformable::new(parts, rest)?;
         let Self { velocity, mass, friction, pins, .. } = self;
@@ -189,7 +194,7 @@ impl Cloth {
         if let Some(compliance) = self.bending_compliance {
             within("bending_compliance", compliance, 0.0, 1e12, "a number from 0 to 1e12 (rad/(N·m))")?;
         }
-        Ok(())
+        self.wish.validate()
     }
 }
 

@@ -3,6 +3,7 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
+use super::fabric::Fabric;
 use crate::constraint::{Angle, Bending, Stick};
 use crate::error::Error;
 use crate::geometry::sphere_tree::{DescentStack, Feature, LayeredTree, descend_self};
@@ -24,6 +25,7 @@ pub(crate) struct Deformable {
     pub(crate) thickness: f32,
     /// `None` if it passes through itself.
     pub(crate) neighbours: Option<Neighbours>,
+    pub(crate) fabric: Fabric,
     /// λ of each angle, then of each bending: scratch memory, zeroed at the start of a substep.
     #[serde(skip)]
     pub(crate) multipliers: Vec<f32>,
@@ -64,6 +66,7 @@ pub(crate) struct Parts {
     pub(crate) leaf_margin: f32,
     pub(crate) thickness: f32,
     pub(crate) self_collision: bool,
+    pub(crate) fabric: Fabric,
 }
 
 /// What a cloth or rope becomes in a world.
@@ -80,7 +83,7 @@ impl Deformable {
     pub(crate) fn new(parts: Parts, rest: &[Vec3]) -> Result<Self, Error> {
         let tree = LayeredTree::new(&parts.leaves, rest, parts.leaf_margin)?;
         let neighbours = parts.self_collision.then(|| Neighbours::of(&tree));
-        let Parts { triangles, sticks, angles, bendings, grid, rigidity, thickness, .. } = parts;
+        let Parts { triangles, sticks, angles, bendings, grid, rigidity, thickness, fabric, .. } = parts;
         Ok(Self {
             triangles,
             sticks,
@@ -91,6 +94,7 @@ impl Deformable {
             tree,
             thickness,
             neighbours,
+            fabric,
             multipliers: Vec::new(),
         })
     }
@@ -114,6 +118,13 @@ impl Deformable {
         largest.max(self.thickness)
     }
 
+    /// Refuses what the paper's solver does not know.
+    pub(crate) fn check_for_paper(&self) -> Result<(), Error> {
+        let Some(field) = self.fabric.beyond_paper() else { return Ok(()) };
+        let problem = "is unknown to the paper's solver: `Settings::cloth` must be `ClothSolver::SmallSteps`";
+        Err(Error::Invalid { field: field.into(), problem: problem.into() })
+    }
+
     pub(crate) fn validate(&self, particle_count: usize) -> Result<(), Error> {
         self.tree.validate(particle_count)?;
         let sound_compliance = |compliance: f32| (0.0..f32::INFINITY).contains(&compliance);
@@ -128,6 +139,7 @@ impl Deformable {
                 ok(&b.edge) && ok(&b.wings) && b.limit.is_finite() && sound_compliance(b.compliance)
             })
             && self.thickness >= 0.0
+            && self.fabric.is_sound()
             && self.neighbours.as_ref().is_none_or(|n| n.is_valid(self.tree.topology().leaf_count()));
         if sound { Ok(()) } else { Err(Error::Snapshot("a cloth or rope is inconsistent".into())) }
     }

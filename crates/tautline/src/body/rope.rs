@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use super::deformable::{BuiltDeformable, Deformable, Parts};
+use super::fabric::Fabric;
 use crate::constraint::{Angle, AngleLimit, Stick, angle_gradient};
 use crate::error::{Error, all_coordinates, coordinates, positive, within};
 use crate::geometry::sphere_tree::Feature;
@@ -118,6 +119,7 @@ impl Rope {
             leaf_margin: self.radius,
             thickness: self.radius,
             self_collision: self.self_collision,
+            fabric: Fabric::default(),
         };
         let body = Deformable::new(parts, &self.points)?;
         let Self { points, velocity, mass, friction, pins, .. } = self;

@@ -9,6 +9,7 @@ use crate::body::{
     Body, BodyDescription, BuiltDeformable, HalfSpace, Motion, RigidBody, Substance, Surface, TrussBody,
 };
 use crate::error::{Error, positive, within};
+use crate::settings::ClothSolver;
 use crate::slots::BodyHandle;
 
 impl World {
@@ -72,6 +73,9 @@ impl World {
     }
 
     fn add_deformable(&mut self, built: BuiltDeformable) -> Result<BodyHandle, Error> {
+        if self.settings.cloth == ClothSolver::Paper {
+            built.body.check_for_paper()?;
+        }
         let particle_mass = check_particle_mass(built.mass, built.positions.len())?;
         let range = self.particles.extend(&built.positions, particle_mass, false);
         self.particles.displacement[range.clone()].fill(built.velocity);

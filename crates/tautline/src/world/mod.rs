@@ -11,7 +11,7 @@ use std::sync::OnceLock;
 
 use glam::Vec3;
 
-use crate::body::{Body, Motion};
+use crate::body::{Body, Deformable, Motion};
 use crate::collision::{Candidate, Contact, NarrowPhase, PairCache};
 use crate::error::Error;
 use crate::events::Contacts;
@@ -19,7 +19,7 @@ use crate::joint::Joints;
 use crate::particles::Particles;
 use crate::query::Index;
 use crate::rest::wake_around;
-use crate::settings::Settings;
+use crate::settings::{ClothSolver, Settings};
 use crate::slots::Slots;
 use crate::solver::paper::Moved;
 use crate::solver::soft::SoftSolver;
@@ -112,9 +112,14 @@ impl World {
     /// Changes how it is simulated, from the next step on.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] with the path of the first setting that is wrong; the old ones stay.
+    /// [`Error::OutOfRange`] with the path of the first setting that is wrong; [`Error::Invalid`] if it has cloth or rope
+    /// that the solver in [`Settings::cloth`] cannot move. The old ones stay.
     pub fn set_settings(&mut self, settings: Settings) -> Result<(), Error> {
         settings.validate()?;
+        if settings.cloth == ClothSolver::Paper {
+            let soft = self.bodies.iter().filter_map(Body::deformable);
+            soft.map(Deformable::check_for_paper).collect::<Result<(), Error>>()?;
+        }
         self.settings = settings;
         self.rigid.invalidate();
         self.soft.invalidate();

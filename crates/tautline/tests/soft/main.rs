@@ -1,7 +1,9 @@
 //! Cloth and rope in small steps, seen from outside: what they lie on, what they carry, what they keep.
 
+mod air;
 mod bits;
 mod closed;
+mod gas;
 mod motion;
 mod rest;
 mod ropes;

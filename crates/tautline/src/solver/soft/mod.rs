@@ -5,8 +5,10 @@
 //! particles by tethers. Rigid bodies have made their substep by then; cloth and rope meet them on the way, push them and
 //! are pushed.
 
+mod air;
 mod batch;
 mod bend;
+mod gas;
 mod grid;
 mod hinge;
 mod hot;
@@ -193,6 +195,8 @@ impl SoftSolver {
             small: h / count,
             count: count as usize,
             gravity: settings.gravity,
+            wind: settings.wind,
+            air_density: settings.air_density,
             damping: settings.damping,
             recovery: settings.separation_speed.unwrap_or(f32::INFINITY),
             instructions: settings.instructions,

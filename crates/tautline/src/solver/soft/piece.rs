@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
+use super::air::Sail;
 use super::batch::Batches;
+use super::gas::Balloon;
 use super::grid::Grid;
 use super::hinge::Hinges;
 use super::meet::{Exempt, lay_flat};
@@ -35,6 +37,8 @@ pub(super) struct Piece {
     pub(super) rest: Rest,
     pub(super) tethers: Tethers,
     pub(super) hinges: Hinges,
+    pub(super) sail: Option<Sail>,
+    pub(super) balloon: Option<Balloon>,
     /// How far particles are kept from solids, in m.
     pub(super) thickness: f32,
     /// How far a particle may go in a small step, in m.
@@ -101,12 +105,20 @@ impl Piece {
             rest: Rest::default(),
             tethers: Tethers::default(),
             hinges: Hinges::default(),
+            sail: None,
+            balloon: None,
             thickness: deformable.thickness,
             longest_motion: f32::MAX,
             fastest: 0.0,
         };
         let Deformable { angles, bendings, .. } = deformable;
         piece.hinges = Hinges::new(angles, bendings, |particle| piece.place(particle));
+        let Deformable { triangles, fabric, .. } = deformable;
+        let place = |corner: u32| piece.place(corner as usize) as u32;
+        let placed = || triangles.iter().map(|triangle| triangle.map(place)).collect::<Vec<_>>();
+        let sail = fabric.air.map(|air| Sail::new(placed(), air, piece.places.clone()));
+        let balloon = fabric.gas.map(|gas| Balloon::new(placed(), gas, piece.places.clone()));
+        (piece.sail, piece.balloon) = (sail, balloon);
         piece.tie(body, deformable, particles);
         piece
     }

@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use super::SoftSolver;
+use super::gas;
 use super::hinge;
 use super::patch::{Cone, cone_of};
 use super::piece::{Layout, Piece};
@@ -31,6 +32,10 @@ pub(super) struct Timing {
     pub(super) count: usize,
     /// In m/s².
     pub(super) gravity: Vec3,
+    /// In m/s.
+    pub(super) wind: Vec3,
+    /// In kg/m³.
+    pub(super) air_density: f32,
     /// In 1/s.
     pub(super) damping: f32,
     /// The speed at which what was too deep before is moved out, in m/s.
@@ -50,7 +55,9 @@ impl SoftSolver {
         let instructions = timing.instructions;
         let mut until_search = 0;
         for number in 0..timing.count {
+            self.blow(number, timing);
             run(instructions, Integrate(self, timing));
+            self.press(timing.small);
             if until_search == 0 {
                 let left = timing.count - number;
                 until_search = run(instructions, FindTouches { solver: self, solids, bodies, left });
@@ -153,7 +160,11 @@ impl Kernel for Relax<'_> {
                     let whole = sheet.grid.whole();
                     sheet.grid.sweep::<L>(&mut points.moving().0, lightened, &whole, &sheet.weave);
                 }
-                Layout::Loose(batches) => batches.sweep::<L>(points, lightened),
+                Layout::Loose(batches) => {
+                    for _ in 0..if piece.balloon.is_some() { gas::SWEEPS } else { 1 } {
+                        batches.sweep::<L>(points, lightened);
+                    }
+                }
                 Layout::Rope => {}
             }
         }
