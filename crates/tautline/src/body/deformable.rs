@@ -75,6 +75,8 @@ pub(crate) struct BuiltDeformable {
     pub(crate) body: Deformable,
     pub(crate) velocity: Vec3,
     pub(crate) mass: f32,
+    /// Those of the particles, in kg, if they are not equal shares.
+    pub(crate) masses: Option<Vec<f32>>,
     pub(crate) friction: f32,
     pub(crate) pins: Vec<u32>,
 }
@@ -120,7 +122,8 @@ impl Deformable {
 
     /// Refuses what the paper's solver does not know.
     pub(crate) fn check_for_paper(&self) -> Result<(), Error> {
-        let Some(field) = self.fabric.beyond_paper() else { return Ok(()) };
+        let bends = self.rigidity.map(|_| "bending_stiffness");
+        let Some(field) = self.fabric.beyond_paper().or(bends) else { return Ok(()) };
         let problem = "is unknown to the paper's solver: `Settings::cloth` must be `ClothSolver::SmallSteps`";
         Err(Error::Invalid { field: field.into(), problem: problem.into() })
     }
@@ -139,7 +142,8 @@ impl Deformable {
                 ok(&b.edge) && ok(&b.wings) && b.limit.is_finite() && sound_compliance(b.compliance)
             })
             && self.thickness >= 0.0
-            && self.fabric.is_sound()
+            && self.rigidity.is_none_or(|rigidity| (0.0..f32::INFINITY).contains(&rigidity))
+            && self.fabric.is_sound(particle_count, self.sticks.len())
             && self.neighbours.as_ref().is_none_or(|n| n.is_valid(self.tree.topology().leaf_count()));
         if sound { Ok(()) } else { Err(Error::Snapshot("a cloth or rope is inconsistent".into())) }
     }

@@ -4,11 +4,40 @@
 use glam::{DVec3, Vec3};
 use serde::{Deserialize, Serialize};
 
+use crate::constraint::Stick;
+
 /// What a builder asked for.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Fabric {
     pub(crate) air: Option<AirGrip>,
     pub(crate) gas: Option<Gas>,
+    pub(crate) stretch: Option<Stretch>,
+    /// Whether its hinges were given as stiffness, and not as compliances.
+    pub(crate) bends_by_stiffness: bool,
+    /// Particles that are drawn together, and how far apart they may be now (m).
+    pub(crate) seams: Vec<Stick>,
+}
+
+/// How sticks give.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Stretch {
+    /// Of every stick, in m/N; `None` = nothing but the limit holds them.
+    pub(crate) compliances: Option<Vec<f32>>,
+    /// By what share of their length they may be too long; `None` = any.
+    pub(crate) limit: Option<f32>,
+}
+
+impl Stretch {
+    /// The longest a stick can be, over its length at rest.
+    pub(crate) fn longest(&self) -> f32 {
+        self.limit.map_or(f32::INFINITY, |limit| 1.0 + limit)
+    }
+
+    fn is_sound(&self, sticks: usize) -> bool {
+        let sound = |number: &f32| (0.0..f32::INFINITY).contains(number);
+        let is_complete = |numbers: &Vec<f32>| numbers.len() == sticks && numbers.iter().all(sound);
+        self.compliances.as_ref().is_none_or(is_complete) && self.limit.as_ref().is_none_or(sound)
+    }
 }
 
 /// How the air takes hold of the triangles of a cloth: coefficients, both from 0 on.
@@ -50,15 +79,26 @@ impl Gas {
 impl Fabric {
     /// The first of its features that only small steps know, by the name of its field.
     pub(crate) fn beyond_paper(&self) -> Option<&'static str> {
-        let features = [("drag", self.air.is_some()), ("pressure", self.gas.is_some())];
+        let stretch = self.stretch.as_ref();
+        let features = [
+            ("drag", self.air.is_some()),
+            ("pressure", self.gas.is_some()),
+            ("compliance", stretch.is_some_and(|stretch| stretch.compliances.is_some())),
+            ("strain_limit", stretch.is_some()),
+            ("seams", !self.seams.is_empty()),
+        ];
         features.into_iter().find(|(_, is_there)| *is_there).map(|(name, _)| name)
     }
 
-    /// Checks one from untrusted bytes.
-    pub(crate) fn is_sound(&self) -> bool {
+    /// Checks one from untrusted bytes, of a body with so many particles and sticks.
+    pub(crate) fn is_sound(&self, particles: usize, sticks: usize) -> bool {
         let sound = |number: f32| (0.0..f32::INFINITY).contains(&number);
         self.air.is_none_or(|air| sound(air.drag) && sound(air.lift))
             && self.gas.is_none_or(|gas| sound(gas.pressure) && gas.volume > 0.0 && gas.volume.is_finite())
+            && self.stretch.as_ref().is_none_or(|stretch| stretch.is_sound(sticks))
+            && self.seams.iter().all(|seam| {
+                sound(seam.rest_length) && [seam.a, seam.b].iter().all(|&end| (end as usize) < particles)
+            })
     }
 }
 

@@ -28,7 +28,7 @@ pub use surface::{Combine, Surface};
 pub use truss::{Truss, TrussBody};
 
 pub(crate) use deformable::{BuiltDeformable, Deformable};
-pub(crate) use fabric::{AirGrip, Gas, volume_of};
+pub(crate) use fabric::{AirGrip, Gas, Stretch, volume_of};
 pub(crate) use rigid::{CORNERS, Frame, Rigid, Traits, rigid_motion};
 pub(crate) use surface::Touch;
 

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::deformable::{BuiltDeformable, Deformable, Parts};
-use super::fabric::Fabric;
+use super::fabric::{Fabric, Stretch};
 use crate::constraint::{Angle, AngleLimit, Stick, angle_gradient};
 use crate::error::{Error, all_coordinates, coordinates, positive, within};
 use crate::geometry::sphere_tree::Feature;
@@ -19,6 +19,8 @@ pub struct Rope {
     friction: f32,
     self_collision: bool,
     bending_compliance: Option<f32>,
+    bending_stiffness: Option<f32>,
+    compliance: Option<f32>,
     least_angle: Option<f32>,
     pins: Vec<u32>,
 }
@@ -36,6 +38,8 @@ impl Rope {
             friction: 0.5,
             self_collision: false,
             bending_compliance: None,
+            bending_stiffness: None,
+            compliance: None,
             least_angle: None,
             pins: Vec::new(),
         }
@@ -82,6 +86,34 @@ impl Rope {
         Self { bending_compliance: Some(compliance), ..self }
     }
 
+    /// Resists bending away from how it is laid out with this stiffness E I, in N·m²: the moment E I κ at the curvature κ.
+    /// Exact as long as a small step can carry it; what is stiffer is as stiff as can be.
+    pub fn bending_stiffness(self, stiffness: f32) -> Self {
+        Self { bending_stiffness: Some(stiffness), ..self }
+    }
+
+    /// How far it gives when it is pulled, in 1/N: the strain per tension, 1/(E A). Absent, it does not stretch but for
+    /// what small steps leave. Only [`ClothSolver::SmallSteps`](crate::ClothSolver::SmallSteps) knows it; under the paper's
+    /// solver such a rope is refused.
+    ///
+    /// ```
+    /// use tautline::{Rope, Settings, Vec3, World};
+    ///
+    /// let mut world = World::new(Settings { damping: 2.0, ..Settings::default() })?;
+    /// let elastic = Rope::straight(Vec3::ZERO, Vec3::NEG_Y, 10).mass(0.1).compliance(0.02).pin(0);
+    /// let elastic = world.add(elastic)?;
+    /// world.set_particle_mass(elastic, 10, 1.0)?;
+    /// for _ in 0..300 {
+    ///     world.step(1.0 / 60.0)?;
+    /// }
+    /// let end = world.body(elastic)?.positions()[10].y;
+    /// assert!((end + 1.2).abs() < 0.02, "some 10 N stretch it by a fifth");
+    /// # Ok::<(), tautline::Error>(())
+    /// ```
+    pub fn compliance(self, compliance: f32) -> Self {
+        Self { compliance: Some(compliance), ..self }
+    }
+
     /// Keeps the angle at every inner particle at or above this, in rad, 0 to π: π = straight. A rope that cannot
     /// fold sharply is thicker than its particles.
     pub fn bend_limit(self, least_angle: f32) -> Self {
@@ -103,11 +135,14 @@ impl Rope {
     pub(crate) fn build(self) -> Result<BuiltDeformable, Error> {
         self.validate()?;
         let last = self.points.len() as u32 - 1;
-        let laid_out: f32 = self.points.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
-        let scale = self.length.map_or(1.0, |length| length / laid_out);
+        let scale = self.scale();
         let mut sticks: Vec<Stick> = (0..last).map(|i| Stick::at_rest(i, i + 1, &self.points)).collect();
         sticks.iter_mut().for_each(|stick| stick.rest_length *= scale);
         Stick::check_all(&sticks, "length")?;
+        let stretch = self.compliance.map(|compliance| Stretch {
+            compliances: Some(sticks.iter().map(|stick| stick.rest_length * compliance).collect()),
+            limit: None,
+        });
         let parts = Parts {
             triangles: Vec::new(),
             sticks,
@@ -119,11 +154,15 @@ impl Rope {
             leaf_margin: self.radius,
             thickness: self.radius,
             self_collision: self.self_collision,
-            fabric: Fabric::default(),
+            fabric: Fabric {
+                stretch,
+                bends_by_stiffness: self.bending_stiffness.is_some(),
+                ..Fabric::default()
+            },
         };
         let body = Deformable::new(parts, &self.points)?;
         let Self { points, velocity, mass, friction, pins, .. } = self;
-        Ok(BuiltDeformable { positions: points, body, velocity, mass, friction, pins })
+        Ok(BuiltDeformable { positions: points, body, velocity, mass, masses: None, friction, pins })
     }
 
     /// At every inner particle, what holds it as laid out and what keeps it from folding.
@@ -133,7 +172,7 @@ impl Rope {
             angle_gradient(self.point(b - 1), self.point(b), self.point(b + 1)).map(|(angle, _)| angle)
         };
         let stiff = |b: u32| {
-            let (compliance, angle) = (self.bending_compliance?, at_rest(b)?);
+            let (compliance, angle) = (self.bending_compliance_at(b)?, at_rest(b)?);
             Some(Angle { a: b - 1, b, c: b + 1, limit: AngleLimit::Target(angle), compliance })
         };
         let limited = |b: u32| {
@@ -141,6 +180,22 @@ impl Rope {
             Some(Angle { a: b - 1, b, c: b + 1, limit, compliance: 0.0 })
         };
         inner.flat_map(|b| [stiff(b), limited(b)]).flatten().collect()
+    }
+
+    /// What the angle at an inner particle is held with, in rad/(N·m): for E I, half the length of either segment over it.
+    fn bending_compliance_at(&self, b: u32) -> Option<f32> {
+        let mean = |stiffness: f32| {
+            let lengths =
+                self.point(b - 1).distance(self.point(b)) + self.point(b).distance(self.point(b + 1));
+            0.5 * lengths * self.scale() / stiffness
+        };
+        self.bending_compliance.or(self.bending_stiffness.map(mean))
+    }
+
+    /// Its length at rest over that it is laid out at.
+    fn scale(&self) -> f32 {
+        let laid_out: f32 = self.points.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+        self.length.map_or(1.0, |length| length / laid_out)
     }
 
     fn point(&self, index: u32) -> Vec3 {
@@ -172,6 +227,16 @@ impl Rope {
         }
         if let Some(length) = self.length {
             within("length", length, f32::MIN_POSITIVE, 1e9, "a length above 0, at most 1e9 (m)")?;
+        }
+        if let Some(stiffness) = self.bending_stiffness {
+            within("bending_stiffness", stiffness, 1e-20, 1e12, "a stiffness from 1e-20 to 1e12 (N·m²)")?;
+            if self.bending_compliance.is_some() {
+                let problem = "comes with a compliance of bending: give one of the two".into();
+                return Err(Error::Invalid { field: "bending_stiffness".into(), problem });
+            }
+        }
+        if let Some(compliance) = self.compliance {
+            within("compliance", compliance, 0.0, 1e12, "a compliance from 0 to 1e12 (1/N)")?;
         }
         if let Some(compliance) = self.bending_compliance {
             within("bending_compliance", compliance, 0.0, 1e12, "a number from 0 to 1e12 (rad/(N·m))")?;

@@ -78,6 +78,9 @@ impl World {
         }
         let particle_mass = check_particle_mass(built.mass, built.positions.len())?;
         let range = self.particles.extend(&built.positions, particle_mass, false);
+        if let Some(masses) = &built.masses {
+            self.particles.weigh(range.start, masses);
+        }
         self.particles.displacement[range.clone()].fill(built.velocity);
         for pin in built.pins {
             let particle = range.start + pin as usize;

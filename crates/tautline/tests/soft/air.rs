@@ -27,14 +27,19 @@ fn weigh_by_area(world: &mut World, sheet: BodyHandle, mass: f32) {
 /// m g = ½ ρ C A v².
 #[test]
 fn a_level_sheet_falls_at_its_terminal_speed() {
-    for (mass, drag) in [(0.5, 1.2), (0.05, 0.7), (2e-3, 2.0)] {
+    for (mass, drag) in [(0.5, 1.2), (0.05, 0.7), (1e-4, 2.0)] {
         let mut world = World::new(Settings { sleep: None, ..Settings::default() }).unwrap();
         let sheet = world.add(Cloth::grid(12, 9, 1.5, 1.0).mass(mass).drag(drag)).unwrap();
         weigh_by_area(&mut world, sheet, mass);
         run(&mut world, 4.0);
         let expected = (2.0 * mass * 9.81 / (DENSITY * drag * 1.5)).sqrt();
         let fall = speed(&world, sheet);
-        assert!((fall.y + expected).abs() < 0.02 * expected, "{mass} kg: {fall}, not {expected} m/s");
+        // Gravity has acted for a small step more than the air.
+        let late = 0.5 * 9.81 / 1920.0;
+        assert!(
+            (fall.y + expected).abs() < 0.01 * expected + 1.1 * late,
+            "{mass} kg: {fall}, not {expected} m/s"
+        );
     }
 }
 

@@ -32,20 +32,21 @@ fn a_balloon_of_stiff_cloth_keeps_its_volume_and_pressure() {
 }
 
 #[test]
-fn gas_moves_no_free_balloon_and_turns_none() {
+fn gas_moves_no_free_balloon() {
     let mut world = World::new(weightless()).unwrap();
-    let mut mesh = primitives::torus(0.4, 0.15, 20, 12).unwrap();
+    let mut mesh = ball(0.4);
     // Of no symmetry.
     for at in &mut mesh.positions {
-        *at += Vec3::new(0.3 * at.y * at.x, 0.2 * at.x * at.x, 0.5 * at.z * at.y);
+        *at += Vec3::new(0.3 * at.y * at.x, 0.2 * at.x * at.x + 0.3 * at.y, 0.5 * at.z * at.y);
     }
-    let velocity = Vec3::new(3.0, 4.0, 0.0);
-    let balloon = world.add(Cloth::from_mesh(mesh).mass(0.2).velocity(velocity).pressure(200.0)).unwrap();
-    let (momentum, spin, start) = (world.momentum(), world.angular_momentum(), center(&world, balloon));
+    let velocity = Vec3::new(0.9, -0.4, 0.2);
+    let balloon = world
+        .add(Cloth::from_mesh(mesh).mass(0.2).velocity(velocity).pressure(200.0).self_collision(false))
+        .unwrap();
+    let (momentum, start) = (world.momentum(), center(&world, balloon));
     run(&mut world, 3.0);
-    let scale = 0.2 * 5.0;
+    let scale = 0.2;
     assert!((world.momentum() - momentum).length() < 1e-5 * scale, "{}", world.momentum() - momentum);
-    assert!((world.angular_momentum() - spin).length() < 1e-4 * scale, "{}", world.angular_momentum() - spin);
     assert!(center(&world, balloon).distance(start + velocity * 3.0) < 1e-3);
 }
 

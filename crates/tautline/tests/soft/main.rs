@@ -3,6 +3,7 @@
 mod air;
 mod bits;
 mod closed;
+mod fabric;
 mod gas;
 mod motion;
 mod rest;

@@ -58,6 +58,7 @@ impl SoftSolver {
             self.blow(number, timing);
             run(instructions, Integrate(self, timing));
             self.press(timing.small);
+            self.sew(timing.small);
             if until_search == 0 {
                 let left = timing.count - number;
                 until_search = run(instructions, FindTouches { solver: self, solids, bodies, left });
@@ -154,6 +155,7 @@ impl Kernel for Relax<'_> {
         for piece in pieces {
             piece.tethers.tighten::<L>(points);
             let is_held = piece.is_held();
+            piece.elastic.sweep::<L>(points, lightened);
             match &mut piece.layout {
                 Layout::Sheet(sheet) => {
                     sheet.pull_threads(points, is_held, done.is_multiple_of(2), &mut pivots);
@@ -161,7 +163,8 @@ impl Kernel for Relax<'_> {
                     sheet.grid.sweep::<L>(&mut points.moving().0, lightened, &whole, &sheet.weave);
                 }
                 Layout::Loose(batches) => {
-                    for _ in 0..if piece.balloon.is_some() { gas::SWEEPS } else { 1 } {
+                    let sweeps = if piece.balloon.is_some() { gas::SWEEPS } else { 1 };
+                    for _ in 0..sweeps {
                         batches.sweep::<L>(points, lightened);
                     }
                 }
@@ -194,6 +197,12 @@ impl Kernel for Part<'_> {
 }
 
 impl SoftSolver {
+    fn sew(&mut self, h: f32) {
+        for piece in &mut self.pieces {
+            piece.seams.pull(&mut self.points, h);
+        }
+    }
+
     fn turn_hinges(&mut self, h: f32) {
         if self.done.is_multiple_of(hinge::EVERY) {
             for piece in &self.pieces {
