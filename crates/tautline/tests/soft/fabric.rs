@@ -49,8 +49,8 @@ const FREE: f32 = 0.3;
 const RIGIDITY: f32 = 0.05;
 
 /// A strip that lies along x from −edge on, clamped there; its last particle in the middle of its width.
-fn clamped_end(cells: u32, as_mesh: bool) -> Vec3 {
-    let edge = FREE / cells as f32;
+fn clamped_end(cells: u32, as_mesh: bool, [free, rigidity]: [f32; 2]) -> Vec3 {
+    let edge = free / cells as f32;
     let (columns, rows) = (cells + 2, 5);
     let [length, width] = [columns - 1, rows - 1].map(|count| count as f32 * edge);
     let strip = if as_mesh {
@@ -58,7 +58,7 @@ fn clamped_end(cells: u32, as_mesh: bool) -> Vec3 {
     } else {
         Cloth::grid(columns, rows, length, width)
     };
-    let mut strip = strip.density(1.0).bending_stiffness(RIGIDITY).self_collision(false);
+    let mut strip = strip.density(1.0).bending_stiffness(rigidity).self_collision(false);
     strip = strip.position(Vec3::X * (0.5 * length - edge));
     for row in 0..rows {
         strip = strip.pin(row * columns).pin(row * columns + 1);
@@ -71,13 +71,22 @@ fn clamped_end(cells: u32, as_mesh: bool) -> Vec3 {
 
 #[test]
 fn a_heavy_strip_clamped_level_hangs_as_an_elastica() {
-    for as_mesh in [false, true] {
-        for cells in [8, 12, 14] {
-            let end = clamped_end(cells, as_mesh);
-            let sizes = [FREE / cells as f32, FREE];
-            check_end(&format!("{cells} cells, {as_mesh}"), end, sizes, 9.81 / RIGIDITY, 0.02);
-        }
+    for cells in [8, 12, 14] {
+        let end = clamped_end(cells, false, [FREE, RIGIDITY]);
+        check_end(&format!("{cells} cells"), end, [FREE / cells as f32, FREE], 9.81 / RIGIDITY, 0.02);
     }
+}
+
+/// Hinges of halved squares bend and twist together, so that a narrow strip is softer than the plate it is cut from, by 1/6
+/// where nothing keeps it from twisting.
+#[test]
+fn a_strip_of_a_mesh_bends_nearly_as_much() {
+    let (free, rigidity, cells) = (1.0, 20.0, 8);
+    let edge = free / cells as f32;
+    let end = clamped_end(cells, true, [free, rigidity]);
+    let [_, droop] = elastica(f64::from(free + 0.5 * edge), f64::from(9.81 / rigidity));
+    let ratio = f64::from(-end.y) / droop;
+    assert!(ratio > 1.0 && ratio < 1.2, "{ratio}");
 }
 
 #[test]
@@ -173,11 +182,15 @@ fn masses_are_those_given_or_follow_the_area() {
     assert!((found[4] - 3.0).abs() < 1e-5 && (found[1] - 1.5).abs() < 1e-5, "{found:?}");
 }
 
-/// A flat panel that is sewn to a tube.
+/// A panel that is bent to five sixths of a tube, and sewn up.
 fn tube(world: &mut World) -> BodyHandle {
-    let sheet = Cloth::grid(16, 6, 1.5, 0.5).mass(0.3);
-    let sheet = (0..6).fold(sheet, |sheet, row| sheet.seam(row * 16, row * 16 + 15));
-    world.add(sheet).unwrap()
+    let mut mesh = primitives::grid(16, 6, 1.5, 0.5).unwrap();
+    for at in &mut mesh.positions {
+        let (angle, radius) = (at.x / 1.5 * 5.236, 1.5 / 5.236);
+        *at = Vec3::new(radius * angle.sin(), radius * (1.0 - angle.cos()), at.z);
+    }
+    let sheet = Cloth::from_mesh(mesh).mass(0.3);
+    world.add((0..6).fold(sheet, |sheet, row| sheet.seam(row * 16, row * 16 + 15))).unwrap()
 }
 
 #[test]
@@ -188,12 +201,13 @@ fn seams_close_and_hold_and_keep_momentum() {
         let at = positions(world, sheet);
         (0..6).map(|row| at[row * 16].distance(at[row * 16 + 15])).fold(0.0, f32::max)
     };
-    run(&mut world, 0.5);
-    // Drawn together at 1 m/s, but for what a flat sheet resists until it buckles.
-    assert!(gap(&world) > 0.98 && gap(&world) < 1.15, "{}", gap(&world));
+    let wide = gap(&world);
+    run(&mut world, 0.1);
+    let drawn = wide - gap(&world);
+    assert!((drawn - 0.1).abs() < 0.02, "drawn together at 1 m/s: {drawn} m");
     let mut copy = World::restore(&world.snapshot()).unwrap();
-    run(&mut world, 4.5);
-    run(&mut copy, 4.5);
+    run(&mut world, 1.0);
+    run(&mut copy, 1.0);
     assert_eq!(world.state_hash(), copy.state_hash());
     assert!(gap(&world) < 1e-3, "{}", gap(&world));
     assert!(world.momentum().length() < 1e-5 * 0.3, "{}", world.momentum());

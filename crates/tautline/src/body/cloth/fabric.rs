@@ -57,6 +57,7 @@ impl Cloth {
 
     /// Fills a closed surface with gas of this pressure p over the surroundings, in Pa, at the volume V it is built with.
     /// p V stays as it is: at half the volume the pressure is twice as large, up to a hundred times at a hundredth of it.
+    /// A balloon of no symmetry that floats freely may slowly begin to turn.
     /// (Were p counted from vacuum, one per mille that a cloth is stretched would let out 300 Pa.)
     ///
     /// ```
@@ -77,7 +78,8 @@ impl Cloth {
     /// Resists bending with this flexural rigidity B, in N·m: a strip of width b has the moment B b κ at the curvature κ.
     /// A cotton sheet has some 1e-5, paper 1e-3. It is exact as long as a small step can carry it; what is stiffer is as
     /// stiff as can be. On a grid, particles that follow each other want to be in line; on other meshes, angles between
-    /// triangles are held as they are built, each with the compliance that gives the same B.
+    /// triangles are held as they are built, each with the compliance that gives the same B to a plate; narrow strips of
+    /// such a mesh are softer by up to a sixth.
     pub fn bending_stiffness(mut self, rigidity: f32) -> Self {
         self.wish.bending_stiffness = Some(rigidity);
         self
