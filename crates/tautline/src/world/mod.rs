@@ -117,8 +117,8 @@ impl World {
     pub fn set_settings(&mut self, settings: Settings) -> Result<(), Error> {
         settings.validate()?;
         if settings.cloth == ClothSolver::Paper {
-            let soft = self.bodies.iter().filter_map(Body::deformable);
-            soft.map(Deformable::check_for_paper).collect::<Result<(), Error>>()?;
+            let mut soft = self.bodies.iter().filter_map(Body::deformable);
+            soft.try_for_each(Deformable::check_for_paper)?;
         }
         self.settings = settings;
         self.rigid.invalidate();

@@ -183,7 +183,7 @@ impl Wish {
         let compliances =
             self.compliance.map(|compliance| self.compliances(compliance, mesh, half_edges, sticks));
         let stretch = (compliances.is_some() || self.strain_limit.is_some())
-            .then(|| Stretch { compliances, limit: self.strain_limit });
+            .then_some(Stretch { compliances, limit: self.strain_limit });
         let seams =
             self.seams.iter().zip(0..).map(|(seam, number)| seam_at_rest(*seam, number, &mesh.positions));
         let bends_by_stiffness = self.bending_stiffness.is_some();
