@@ -52,6 +52,14 @@ impl Particles {
         range
     }
 
+    /// Gives particles from `start` on that can move their masses, in kg.
+    pub(crate) fn weigh(&mut self, start: usize, masses: &[f32]) {
+        for (i, &mass) in (start..).zip(masses) {
+            self.mass[i] = mass;
+            self.inverse_mass[i] = 1.0 / mass;
+        }
+    }
+
     pub(crate) fn validate(&self) -> Result<(), Error> {
         let count = self.len();
         let lengths = [self.displacement.len(), self.inverse_mass.len(), self.mass.len(), self.force.len()];

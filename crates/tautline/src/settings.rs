@@ -3,7 +3,7 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, positive, within};
+use crate::error::{Error, coordinates, positive, within};
 use crate::simd::Instructions;
 
 /// How a world is simulated.
@@ -38,6 +38,11 @@ pub struct Settings {
     /// Rate at which free motion dies out, in 1/s: v' = v/(1 + damping·h). 0 = none. To it is added
     /// what a rigid body of four particles has of its own, [`RigidBody::damping`](crate::RigidBody::damping).
     pub damping: f32,
+    /// Velocity of the air, in m/s: it acts on cloth with [`drag`](crate::Cloth::drag). For gusts, see
+    /// [`World::set_wind`](crate::World::set_wind).
+    pub wind: Vec3,
+    /// Density of the air, in kg/m³; 0 = vacuum.
+    pub air_density: f32,
     /// How pairs of trusses, cloth and rope that may touch are found.
     pub broad_phase: BroadPhase,
     /// When resting bodies are put to sleep; `None` = never. Rigid bodies that touch or are joined sleep and wake
@@ -126,6 +131,8 @@ impl Settings {
                 square_root: SquareRoot::Exact,
             },
             damping: 0.0,
+            wind: Vec3::ZERO,
+            air_density: 1.2,
             broad_phase: BroadPhase::SortAndSweep,
             sleep: Some(Sleep { speed: 0.03, seconds: 0.5 }),
             cloth: ClothSolver::Paper,
@@ -166,6 +173,8 @@ impl Settings {
             positive("settings.separation_speed", speed)?;
         }
         within("settings.damping", self.damping, 0.0, 1e6, "a rate from 0 to 1e6 (1/s)")?;
+        coordinates("settings.wind", self.wind)?;
+        within("settings.air_density", self.air_density, 0.0, 1e6, "a density from 0 to 1e6 (kg/m³)")?;
         if let Some(sleep) = self.sleep {
             positive("settings.sleep.speed", sleep.speed)?;
             positive("settings.sleep.seconds", sleep.seconds)?;

@@ -5,7 +5,9 @@ use std::sync::Arc;
 
 use glam::{Mat3, Quat, Vec3};
 
-use crate::body::{Body, BodyKind, CollisionGroups, Frame, Motion, Substance, Surface, Truss, rigid_motion};
+use crate::body::{
+    Body, BodyKind, CollisionGroups, Frame, Motion, Substance, Surface, Truss, rigid_motion, volume_of,
+};
 use crate::constraint::Stick;
 use crate::error::Error;
 use crate::particles::Particles;
@@ -44,6 +46,24 @@ impl<'a> BodyView<'a> {
     /// Inverse masses of its particles, in 1/kg; 0 = pinned.
     pub fn inverse_masses(&self) -> &'a [f32] {
         &self.particles.inverse_mass[self.body.particles.clone()]
+    }
+
+    /// The volume that it holds (m³) and the pressure in it (Pa over the surroundings), if it is a cloth filled with gas.
+    fn gas(&self) -> Option<(f64, f64)> {
+        let deformable = self.body.deformable()?;
+        let gas = deformable.fabric.gas?;
+        let volume = volume_of(&deformable.triangles, self.positions());
+        Some((volume, gas.pressure_at(volume)))
+    }
+
+    /// The volume that a cloth with [gas](crate::Cloth::pressure) in it holds, in m³; `None` for all else.
+    pub fn volume(&self) -> Option<f32> {
+        self.gas().map(|(volume, _)| volume as f32)
+    }
+
+    /// The pressure in a cloth with [gas](crate::Cloth::pressure) in it, in Pa over the surroundings; `None` for all else.
+    pub fn pressure(&self) -> Option<f32> {
+        self.gas().map(|(_, pressure)| pressure as f32)
     }
 
     /// Velocity of a particle, in m/s: its mean over the last substep. Zero for one that is not there.

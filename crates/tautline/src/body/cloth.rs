@@ -1,12 +1,17 @@
 //! Cloth: a sheet of particles with sticks on the edges of its triangles (paper, 4).
 
+mod fabric;
+mod mass;
+
 use glam::{Quat, Vec3};
 
 use super::deformable::{BuiltDeformable, Deformable, GridShape, Parts};
 use crate::constraint::{AngleLimit, Bending, Stick};
-use crate::error::{Error, all_coordinates, coordinates, positive, within};
+use crate::error::{Error, all_coordinates, coordinates, within};
 use crate::geometry::sphere_tree::Feature;
 use crate::mesh::{HalfEdgeMesh, TriMesh, primitives};
+
+use mass::Mass;
 
 /// A sheet to be added to a world.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,12 +20,13 @@ pub struct Cloth {
     position: Vec3,
     rotation: Quat,
     velocity: Vec3,
-    mass: f32,
+    mass: Mass,
     friction: f32,
     thickness: Option<f32>,
     self_collision: bool,
     bending_compliance: Option<f32>,
     pins: Vec<u32>,
+    wish: fabric::Wish,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -60,12 +66,13 @@ impl Cloth {
             position: Vec3::ZERO,
             rotation: Quat::IDENTITY,
             velocity: Vec3::ZERO,
-            mass: 1.0,
+            mass: Mass::Whole(1.0),
             friction: 0.5,
             thickness: None,
             self_collision: true,
             bending_compliance: None,
             pins: Vec::new(),
+            wish: fabric::Wish::default(),
         }
     }
 
@@ -84,9 +91,19 @@ impl Cloth {
         Self { velocity, ..self }
     }
 
-    /// Mass, in kg, shared equally by its particles.
+    /// Mass, in kg, shared equally by its particles. Of this, [`Cloth::masses`] and [`Cloth::density`] the last counts.
     pub fn mass(self, mass: f32) -> Self {
-        Self { mass, ..self }
+        Self { mass: Mass::Whole(mass), ..self }
+    }
+
+    /// The mass of every particle, in kg.
+    pub fn masses(self, masses: Vec<f32>) -> Self {
+        Self { mass: Mass::Each(masses), ..self }
+    }
+
+    /// Mass per area, in kg/m²: every particle gets a third of the triangles around it, also where a mesh is uneven.
+    pub fn density(self, density: f32) -> Self {
+        Self { mass: Mass::PerArea(density), ..self }
     }
 
     /// Coulomb's coefficient of friction; a contact uses the geometric mean of both bodies' own.
@@ -154,29 +171,38 @@ impl Cloth {
             Surface::Mesh(_) => mesh.triangles.iter().map(|&t| Feature::Triangle(t)).collect(),
         };
         let grid = match self.surface {
-            Surface::Grid { columns, rows, width, depth } => {
+            // What is laid out as a grid has sticks that are all alike.
+            Surface::Grid { columns, rows, width, depth } if self.wish.is_uniform() => {
                 let edges = [width / (columns - 1) as f32, depth / (rows - 1) as f32];
                 Some(GridShape { columns, rows, edges })
             }
-            Surface::Mesh(_) => None,
+            _ => None,
         };
+        let masses = self.mass.of_particles(&mesh)?;
+        let mut bendings = bendings(&half_edges, rest, self.bending_compliance);
+        let rigidity = if grid.is_some() { self.wish.bending_stiffness } else { None };
+        if rigidity.is_none() {
+            bendings.extend(self.wish.hinges(&half_edges, rest));
+        }
         let parts = Parts {
             grid,
-            rigidity: None,
+            rigidity,
             flesh: None,
-            bendings: bendings(&half_edges, rest, self.bending_compliance),
-            triangles: mesh.triangles,
-            sticks,
+            bendings,
             angles: Vec::new(),
             leaves,
             leaf_margin: 0.0,
             thickness: self.thickness.unwrap_or(0.6 * mean_edge),
             self_collision: self.self_collision,
+            fabric: self.wish.fabric(&mesh, &half_edges, &sticks)?,
+            sticks,
+            triangles: mesh.triangles,
         };
         let body = Deformable::new(parts, rest)?;
         let Self { velocity, mass, friction, pins, .. } = self;
         let count = positions.len();
-        let masses = vec![mass / count as f32; count];
+        let share = if let Mass::Whole(mass) = mass { mass / count as f32 } else { 1.0 };
+        let masses = masses.unwrap_or_else(|| vec![share; count]);
         Ok(BuiltDeformable { positions, body, velocities: vec![velocity; count], masses, friction, pins })
     }
 
@@ -184,7 +210,7 @@ impl Cloth {
         coordinates("position", self.position)?;
         coordinates("velocity", self.velocity)?;
         within("rotation", self.rotation.length_squared(), 1e-6, 1e6, "a quaternion with a length near 1")?;
-        positive("mass", self.mass)?;
+        self.mass.validate()?;
         within("friction", self.friction, 0.0, 1e6, "a number from 0 to 1e6")?;
         if let Some(thickness) = self.thickness {
             within("thickness", thickness, 0.0, 1e6, "a length from 0 to 1e6 (m)")?;
@@ -192,7 +218,11 @@ impl Cloth {
         if let Some(compliance) = self.bending_compliance {
             within("bending_compliance", compliance, 0.0, 1e12, "a number from 0 to 1e12 (rad/(N·m))")?;
         }
-        Ok(())
+        if self.bending_compliance.is_some() && self.wish.bending_stiffness.is_some() {
+            let problem = "comes with a compliance of bending: give one of the two".into();
+            return Err(Error::Invalid { field: "bending_stiffness".into(), problem });
+        }
+        self.wish.validate()
     }
 }
 

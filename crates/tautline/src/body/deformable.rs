@@ -3,6 +3,7 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
+use super::fabric::Fabric;
 use super::flesh::Flesh;
 use crate::constraint::{Angle, Bending, Stick};
 use crate::error::Error;
@@ -29,6 +30,7 @@ pub(crate) struct Deformable {
     pub(crate) neighbours: Option<Neighbours>,
     /// The length that a rope is being wound to, in m.
     pub(crate) winding: Option<f32>,
+    pub(crate) fabric: Fabric,
     /// λ of each angle, then of each bending: scratch memory, zeroed at the start of a substep.
     #[serde(skip)]
     pub(crate) multipliers: Vec<f32>,
@@ -70,6 +72,7 @@ pub(crate) struct Parts {
     pub(crate) leaf_margin: f32,
     pub(crate) thickness: f32,
     pub(crate) self_collision: bool,
+    pub(crate) fabric: Fabric,
 }
 
 /// What a cloth, rope or soft solid becomes in a world.
@@ -88,7 +91,8 @@ impl Deformable {
     pub(crate) fn new(parts: Parts, rest: &[Vec3]) -> Result<Self, Error> {
         let tree = LayeredTree::new(&parts.leaves, rest, parts.leaf_margin)?;
         let neighbours = parts.self_collision.then(|| Neighbours::of(&tree));
-        let Parts { triangles, sticks, angles, bendings, grid, rigidity, flesh, thickness, .. } = parts;
+        let Parts { triangles, sticks, angles, bendings, grid, rigidity, flesh, thickness, fabric, .. } =
+            parts;
         Ok(Self {
             triangles,
             sticks,
@@ -101,6 +105,7 @@ impl Deformable {
             thickness,
             neighbours,
             winding: None,
+            fabric,
             multipliers: Vec::new(),
         })
     }
@@ -129,6 +134,14 @@ impl Deformable {
         largest.max(self.thickness)
     }
 
+    /// Refuses what the paper's solver does not know.
+    pub(crate) fn check_for_paper(&self) -> Result<(), Error> {
+        let bends = self.rigidity.map(|_| "bending_stiffness");
+        let Some(field) = self.fabric.beyond_paper().or(bends) else { return Ok(()) };
+        let problem = "is unknown to the paper's solver: `Settings::cloth` must be `ClothSolver::SmallSteps`";
+        Err(Error::Invalid { field: field.into(), problem: problem.into() })
+    }
+
     pub(crate) fn validate(&self, particle_count: usize) -> Result<(), Error> {
         self.tree.validate(particle_count)?;
         let sound_compliance = |compliance: f32| (0.0..f32::INFINITY).contains(&compliance);
@@ -145,6 +158,8 @@ impl Deformable {
             && self.thickness >= 0.0
             && self.winding.is_none_or(|length| self.is_rope() && self.check_length(length).is_ok())
             && self.flesh.as_ref().is_none_or(|flesh| flesh.is_sound(particle_count))
+            && self.rigidity.is_none_or(|rigidity| (0.0..f32::INFINITY).contains(&rigidity))
+            && self.fabric.is_sound(particle_count, self.sticks.len())
             && self.neighbours.as_ref().is_none_or(|n| n.is_valid(self.tree.topology().leaf_count()));
         if sound {
             Ok(())

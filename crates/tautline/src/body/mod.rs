@@ -3,6 +3,7 @@
 
 mod cloth;
 mod deformable;
+mod fabric;
 mod flesh;
 mod half_space;
 mod pose;
@@ -30,6 +31,7 @@ pub use surface::{Combine, Surface};
 pub use truss::{Truss, TrussBody};
 
 pub(crate) use deformable::{BuiltDeformable, Deformable};
+pub(crate) use fabric::{AirGrip, Gas, Stretch, volume_of};
 pub(crate) use flesh::{Flesh, Material, RestShape};
 pub(crate) use rigid::{CORNERS, Frame, Rigid, Traits, rigid_motion};
 pub(crate) use surface::Touch;
@@ -151,6 +153,14 @@ impl Body {
         match &self.substance {
             Substance::Rigid(rigid) => Some(rigid),
             Substance::Truss { .. } | Substance::Deformable(_) | Substance::HalfSpace(_) => None,
+        }
+    }
+
+    /// What it is besides particles if it is cloth or rope.
+    pub(crate) fn deformable(&self) -> Option<&Deformable> {
+        match &self.substance {
+            Substance::Deformable(deformable) => Some(deformable),
+            Substance::Rigid(_) | Substance::Truss { .. } | Substance::HalfSpace(_) => None,
         }
     }
 

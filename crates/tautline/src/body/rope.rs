@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use super::deformable::{BuiltDeformable, Deformable, Parts};
+use super::fabric::{Fabric, Stretch};
 use crate::constraint::{Angle, AngleLimit, Stick, angle_gradient};
 use crate::error::{Error, all_coordinates, coordinates, positive, within};
 use crate::geometry::sphere_tree::Feature;
@@ -20,6 +21,8 @@ pub struct Rope {
     friction: f32,
     self_collision: bool,
     bending_compliance: Option<f32>,
+    bending_stiffness: Option<f32>,
+    compliance: Option<f32>,
     least_angle: Option<f32>,
     pins: Vec<u32>,
 }
@@ -57,6 +60,8 @@ impl Rope {
             friction: 0.5,
             self_collision: false,
             bending_compliance: None,
+            bending_stiffness: None,
+            compliance: None,
             least_angle: None,
             pins: Vec::new(),
         }
@@ -103,6 +108,34 @@ impl Rope {
         Self { bending_compliance: Some(compliance), ..self }
     }
 
+    /// Resists bending away from how it is laid out with this stiffness E I, in N·m²: the moment E I κ at the curvature κ.
+    /// Exact as long as a small step can carry it; what is stiffer is as stiff as can be.
+    pub fn bending_stiffness(self, stiffness: f32) -> Self {
+        Self { bending_stiffness: Some(stiffness), ..self }
+    }
+
+    /// How far it gives when it is pulled, in 1/N: the strain per tension, 1/(E A). Absent, it does not stretch but for
+    /// what small steps leave. Only [`ClothSolver::SmallSteps`](crate::ClothSolver::SmallSteps) knows it; under the paper's
+    /// solver such a rope is refused.
+    ///
+    /// ```
+    /// use tautline::{Rope, Settings, Vec3, World};
+    ///
+    /// let mut world = World::new(Settings { damping: 2.0, ..Settings::default() })?;
+    /// let elastic = Rope::straight(Vec3::ZERO, Vec3::NEG_Y, 10).mass(0.1).compliance(0.02).pin(0);
+    /// let elastic = world.add(elastic)?;
+    /// world.set_particle_mass(elastic, 10, 1.0)?;
+    /// for _ in 0..300 {
+    ///     world.step(1.0 / 60.0)?;
+    /// }
+    /// let end = world.body(elastic)?.positions()[10].y;
+    /// assert!((end + 1.2).abs() < 0.02, "some 10 N stretch it by a fifth");
+    /// # Ok::<(), tautline::Error>(())
+    /// ```
+    pub fn compliance(self, compliance: f32) -> Self {
+        Self { compliance: Some(compliance), ..self }
+    }
+
     /// Keeps the angle at every inner particle at or above this, in rad, 0 to π: π = straight. A rope that cannot
     /// fold sharply is thicker than its particles.
     pub fn bend_limit(self, least_angle: f32) -> Self {
@@ -125,10 +158,13 @@ impl Rope {
         self.validate()?;
         let at_rest = |&[a, b]: &[u32; 2]| Stick::at_rest(a, b, &self.points);
         let mut sticks: Vec<Stick> = self.segments.iter().map(at_rest).collect();
-        let laid_out: f32 = sticks.iter().map(|stick| stick.rest_length).sum();
-        let scale = self.length.map_or(1.0, |length| length / laid_out);
+        let scale = self.scale();
         sticks.iter_mut().for_each(|stick| stick.rest_length *= scale);
         Stick::check_all(&sticks, "length")?;
+        let stretch = self.compliance.map(|compliance| Stretch {
+            compliances: Some(sticks.iter().map(|stick| stick.rest_length * compliance).collect()),
+            limit: None,
+        });
         let parts = Parts {
             triangles: Vec::new(),
             sticks,
@@ -141,6 +177,11 @@ impl Rope {
             leaf_margin: self.radius,
             thickness: self.radius,
             self_collision: self.self_collision,
+            fabric: Fabric {
+                stretch,
+                bends_by_stiffness: self.bending_stiffness.is_some(),
+                ..Fabric::default()
+            },
         };
         let body = Deformable::new(parts, &self.points)?;
         let Self { points, velocity, mass, friction, pins, .. } = self;
@@ -158,7 +199,7 @@ impl Rope {
 
     /// Where segments meet, what holds each two of them as laid out and what keeps them from folding.
     fn angles(&self) -> Vec<Angle> {
-        if self.bending_compliance.is_none() && self.least_angle.is_none() {
+        if self.bending_compliance.or(self.bending_stiffness).or(self.least_angle).is_none() {
             return Vec::new();
         }
         let mut meeting: Vec<Vec<u32>> = vec![Vec::new(); self.points.len()];
@@ -178,7 +219,7 @@ impl Rope {
     }
 
     fn stiff(&self, a: u32, b: u32, c: u32) -> Option<Angle> {
-        let compliance = self.bending_compliance?;
+        let compliance = self.bending_compliance_of(a, b, c)?;
         let (angle, _) = angle_gradient(self.point(a), self.point(b), self.point(c))?;
         Some(Angle { a, b, c, limit: AngleLimit::Target(angle), compliance })
     }
@@ -186,6 +227,22 @@ impl Rope {
     fn limited(&self, a: u32, b: u32, c: u32) -> Option<Angle> {
         let limit = AngleLimit::Range(self.least_angle?, std::f32::consts::PI);
         Some(Angle { a, b, c, limit, compliance: 0.0 })
+    }
+
+    /// What the angle at a particle is held with, in rad/(N·m): for E I, half the length of both segments over it.
+    fn bending_compliance_of(&self, a: u32, b: u32, c: u32) -> Option<f32> {
+        let mean = |stiffness: f32| {
+            let lengths = self.point(a).distance(self.point(b)) + self.point(b).distance(self.point(c));
+            0.5 * lengths * self.scale() / stiffness
+        };
+        self.bending_compliance.or(self.bending_stiffness.map(mean))
+    }
+
+    /// Its length at rest over that it is laid out at.
+    fn scale(&self) -> f32 {
+        let length = |&[a, b]: &[u32; 2]| self.point(a).distance(self.point(b));
+        let laid_out: f32 = self.segments.iter().map(length).sum();
+        self.length.map_or(1.0, |length| length / laid_out)
     }
 
     fn point(&self, index: u32) -> Vec3 {
@@ -213,6 +270,16 @@ impl Rope {
         }
         if let Some(length) = self.length {
             within("length", length, f32::MIN_POSITIVE, 1e9, "a length above 0, at most 1e9 (m)")?;
+        }
+        if let Some(stiffness) = self.bending_stiffness {
+            within("bending_stiffness", stiffness, 1e-20, 1e12, "a stiffness from 1e-20 to 1e12 (N·m²)")?;
+            if self.bending_compliance.is_some() {
+                let problem = "comes with a compliance of bending: give one of the two".into();
+                return Err(Error::Invalid { field: "bending_stiffness".into(), problem });
+            }
+        }
+        if let Some(compliance) = self.compliance {
+            within("compliance", compliance, 0.0, 1e12, "a compliance from 0 to 1e12 (1/N)")?;
         }
         if let Some(compliance) = self.bending_compliance {
             within("bending_compliance", compliance, 0.0, 1e12, "a number from 0 to 1e12 (rad/(N·m))")?;

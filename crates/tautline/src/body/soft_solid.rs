@@ -3,6 +3,7 @@
 use glam::{Quat, Vec3};
 
 use super::deformable::{BuiltDeformable, Deformable, Parts};
+use super::fabric::Fabric;
 use super::flesh::{Flesh, Material};
 use crate::error::{Error, MeshDefect, all_coordinates, coordinates, positive, within};
 use crate::geometry::sphere_tree::Feature;
@@ -168,6 +169,7 @@ impl SoftSolid {
         let triangles = solid.surface();
         let thickness = self.thickness.unwrap_or_else(|| 0.35 * mean_edge(&triangles, &solid.points));
         let parts = Parts {
+            fabric: Fabric::default(),
             grid: None,
             rigidity: None,
             flesh: Some(flesh),

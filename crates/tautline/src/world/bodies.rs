@@ -79,15 +79,15 @@ impl World {
     }
 
     fn add_deformable(&mut self, built: BuiltDeformable) -> Result<BodyHandle, Error> {
+        if self.settings.cloth == ClothSolver::Paper {
+            built.body.check_for_paper()?;
+        }
         for &mass in &built.masses {
             check_particle_mass(mass, 1)?;
         }
         let range = self.particles.extend(&built.positions, 1.0, false);
+        self.particles.weigh(range.start, &built.masses);
         self.particles.displacement[range.clone()].copy_from_slice(&built.velocities);
-        for (i, mass) in range.clone().zip(built.masses) {
-            self.particles.mass[i] = mass;
-            self.particles.inverse_mass[i] = 1.0 / mass;
-        }
         for pin in built.pins {
             let particle = range.start + pin as usize;
             self.particles.inverse_mass[particle] = 0.0;

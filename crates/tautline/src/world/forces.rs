@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::World;
-use crate::body::{Frame, Motion};
+use crate::body::{Body, Frame, Motion};
 use crate::error::{Error, coordinates};
 use crate::slots::BodyHandle;
 
@@ -58,6 +58,23 @@ impl World {
         let frame = self.rigid_frame(index);
         let turn = frame.axes * (frame.axes.transpose() * torque / inertia_per_mass);
         self.add_forces(index, frame.particles(spread).map(|x| turn.cross(x - frame.center) * 0.25));
+        Ok(())
+    }
+
+    /// Changes [`Settings::wind`](crate::Settings::wind) (m/s) from the next step on, as gusts do, and wakes the cloth that
+    /// it acts on. Where all else stays this takes less than [`World::set_settings`].
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if a coordinate is.
+    pub fn set_wind(&mut self, wind: Vec3) -> Result<(), Error> {
+        coordinates("wind", wind)?;
+        if wind != self.settings.wind {
+            let is_in_air = |body: &Body| body.deformable().is_some_and(|soft| soft.fabric.air.is_some());
+            let moved: Vec<usize> =
+                (0..self.bodies.len()).filter(|&index| is_in_air(&self.bodies[index])).collect();
+            moved.into_iter().for_each(|index| self.wake_body(index));
+        }
+        self.settings.wind = wind;
         Ok(())
     }
 

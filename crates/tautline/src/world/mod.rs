@@ -13,7 +13,7 @@ use std::sync::OnceLock;
 use glam::Vec3;
 
 use crate::attachment::Attachments;
-use crate::body::{Body, BodyKind, Motion};
+use crate::body::{Body, BodyKind, Deformable, Motion};
 use crate::collision::{Candidate, Contact, NarrowPhase, PairCache};
 use crate::error::Error;
 use crate::events::Contacts;
@@ -117,21 +117,29 @@ impl World {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] with the path of the first setting that is wrong; [`Error::Invalid`] if cloth is to be the
-    /// paper's solver's while there are attachments or soft solids. The old ones stay.
+    /// paper's solver's while there are attachments, or cloth, rope or soft solids that it cannot move. The old ones stay.
     pub fn set_settings(&mut self, settings: Settings) -> Result<(), Error> {
         settings.validate()?;
-        if settings.cloth == ClothSolver::Paper && self.attachments().len() > 0 {
-            let problem = "is the paper's solver, which knows no attachments: detach them first".into();
-            return Err(Error::Invalid { field: "cloth".into(), problem });
-        }
-        if self.bodies.iter().any(|body| body.kind() == BodyKind::SoftSolid) {
-            bodies::refuse_under(settings.cloth)?;
+        if settings.cloth == ClothSolver::Paper {
+            self.check_for_paper()?;
         }
         self.settings = settings;
         self.rigid.invalidate();
         self.soft.invalidate();
         self.bodies.iter_mut().for_each(Body::wake);
         Ok(())
+    }
+
+    /// Refuses the paper's solver where it would not move what there is.
+    fn check_for_paper(&self) -> Result<(), Error> {
+        if self.attachments().len() > 0 {
+            let problem = "is the paper's solver, which knows no attachments: detach them first".into();
+            return Err(Error::Invalid { field: "cloth".into(), problem });
+        }
+        if self.bodies.iter().any(|body| body.kind() == BodyKind::SoftSolid) {
+            bodies::refuse_under(ClothSolver::Paper)?;
+        }
+        self.bodies.iter().filter_map(Body::deformable).try_for_each(Deformable::check_for_paper)
     }
 
     /// The simulated time, in s.

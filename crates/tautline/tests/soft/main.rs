@@ -1,9 +1,12 @@
 //! Cloth and rope in small steps, seen from outside: what they lie on, what they carry, what they keep.
 
+mod air;
 mod attach;
 mod attach_handles;
 mod bits;
 mod closed;
+mod fabric;
+mod gas;
 mod jelly;
 mod motion;
 mod nets;

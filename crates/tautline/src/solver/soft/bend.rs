@@ -10,35 +10,36 @@ use crate::simd::{LANES, Lanes};
 
 /// Lines of particles side by side, as `Threads`.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Lines {
+pub(super) struct Lines<'a> {
     pub(super) start: usize,
     pub(super) stride: usize,
     pub(super) knots: usize,
     pub(super) count: usize,
-    /// α/h², in 1/kg.
-    pub(super) compliance: f32,
+    /// α/h² of every line, in 1/kg.
+    pub(super) compliances: &'a [f32],
 }
 
-impl Lines {
+impl Lines<'_> {
     /// Bends every line at every inner knot once; of three knots that follow each other, each in its own colour.
     #[inline(always)]
     pub(super) fn straighten<L: Lanes>(&self, moving: &mut Moving<'_>, masses: &[f32]) {
-        let (mut knots, masses) = (moving.eights(), eights(masses));
+        let (mut knots, masses, compliances) = (moving.eights(), eights(masses), eights(self.compliances));
         let (start, stride, count) = (self.start / LANES, self.stride / LANES, self.count / LANES);
         for colour in 0..3 {
             for knot in (1 + colour..self.knots.saturating_sub(1)).step_by(3) {
                 let first = start + knot * stride;
-                for eight in first..first + count {
+                for (eight, compliance) in (first..first + count).zip(compliances) {
                     let places = [eight - stride, eight, eight + stride];
-                    straighten_eight::<L>(&mut knots, masses, places, L::splat(self.compliance));
+                    straighten_eight::<L>(&mut knots, masses, places, L::read(compliance));
                 }
             }
         }
     }
 }
 
-/// λ = −C/max(α/h², w_a + 4 w_b + w_c): as an explicit force as long as that is stable, whose stiffness is exact; and a
-/// projection where it would not be. The usual sum of both makes what is stiff softer than it is asked to be.
+/// λ = −C/max(α/h² + M/2, M) with M = w_a + 4 w_b + w_c: a force as long as that is stable, and a projection where it would
+/// not be. Of the knots around one, half are straightened before it in a pass, and leave it more bent by M/2 times their λ
+/// than it will be; so that with M/2 its stiffness is as asked on the mean, where the usual M would make it softer.
 #[inline(always)]
 fn straighten_eight<L: Lanes>(
     knots: &mut MovingEights<'_>,
@@ -51,7 +52,8 @@ fn straighten_eight<L: Lanes>(
     let bend = at_a + at_c - (at_b + at_b);
     let mobility = masses[0] + masses[1] * L::splat(4.0) + masses[2];
     let is_whole = mobility.greater(L::splat(0.0));
-    let multiplier = -(bend * is_whole.and(L::splat(1.0) / mobility.max(compliance)));
+    let multiplier =
+        -(bend * is_whole.and(L::splat(1.0) / mobility.max(compliance + mobility * L::splat(0.5))));
     knots.shift(a, at_a, multiplier * masses[0]);
     knots.shift(b, at_b, multiplier * (masses[1] * L::splat(-2.0)));
     knots.shift(c, at_c, multiplier * masses[2]);

@@ -5,10 +5,12 @@
 //! particles by tethers. Rigid bodies have made their substep by then; cloth and rope meet them on the way, push them and
 //! are pushed.
 
+mod air;
 mod attach;
 mod batch;
 mod bend;
 mod elastic;
+mod gas;
 mod grid;
 mod hinge;
 mod hot;
@@ -19,6 +21,7 @@ mod points;
 mod probe;
 mod rest;
 mod ropes;
+mod seam;
 mod sheet;
 mod small_step;
 mod solid;
@@ -28,12 +31,13 @@ mod tether;
 mod thread;
 mod tile;
 mod touch;
-mod wind;
+mod winding;
 
 use glam::Vec3;
 
 use crate::attachment::Attachments;
 use crate::body::{Body, Deformable, Substance};
+use crate::constraint::Stick;
 use crate::particles::Particles;
 use crate::settings::Settings;
 use crate::simd::LANES;
@@ -47,6 +51,7 @@ use rest::Rest;
 use ropes::{Bundle, Rope};
 use small_step::Timing;
 use solid::Solid;
+use stick::Span;
 use strand::{Segment, Strands};
 use touch::Touch;
 
@@ -83,6 +88,8 @@ pub(crate) struct SoftSolver {
     rate: f32,
     /// Whether bodies have come, gone or changed since everything was laid out.
     is_stale: bool,
+    /// The small step that elastic cloth and rope are laid out for, in s.
+    laid_out_for: f32,
 }
 
 impl SoftSolver {
@@ -108,7 +115,9 @@ impl SoftSolver {
         self.done = 0;
         let is_awake = |(_, body): &(usize, &Body)| body.is_awake() && body.is_soft();
         let awake = bodies.iter().enumerate().filter(is_awake).map(|(index, _)| index);
-        if self.is_stale || !awake.eq(self.pieces.iter().map(|piece| piece.body)) {
+        let is_elastic = self.pieces.iter().any(|piece| piece.is_elastic);
+        let is_other_step = is_elastic && h / self.small_steps(h) != self.laid_out_for;
+        if self.is_stale || is_other_step || !awake.eq(self.pieces.iter().map(|piece| piece.body)) {
             self.lay_out(bodies, particles, h);
             self.ties = Ties::new(attachments, &self.pieces, bodies, particles);
             self.link(bodies);
@@ -162,6 +171,7 @@ impl SoftSolver {
         self.is_stale = false;
         self.rate = rate_of(bodies);
         let small = h / self.small_steps(h);
+        self.laid_out_for = small;
         self.pieces.clear();
         self.strands.reset();
         let mut end = 0;
@@ -182,9 +192,7 @@ impl SoftSolver {
             let Substance::Deformable(deformable) = &body.substance else { continue };
             if deformable.is_rope() {
                 if let Layout::Rope = piece.layout {
-                    let spans =
-                        deformable.sticks.iter().map(|stick| span_of(stick.rest_length, 0.0)).collect();
-                    ropes.push(Rope { start: piece.places.start, spans });
+                    ropes.push(Rope { start: piece.places.start, spans: spans_of_rope(deformable, small) });
                 }
                 self.strands.add(segments(number as u32, piece, deformable, body));
             } else {
@@ -228,6 +236,8 @@ impl SoftSolver {
             small: h / count,
             count: count as usize,
             gravity: settings.gravity,
+            wind: settings.wind,
+            air_density: settings.air_density,
             damping: settings.damping,
             recovery: settings.separation_speed.unwrap_or(f32::INFINITY),
             instructions: settings.instructions,
@@ -301,11 +311,26 @@ impl SoftSolver {
                 (particles.position[i], particles.displacement[i]) = moved(number);
             }
             body.previous_step = small;
+            if let Substance::Deformable(deformable) = &mut body.substance {
+                let stitches = &piece.seams.stitches;
+                for (seam, stitch) in deformable.fabric.seams.iter_mut().zip(stitches) {
+                    seam.rest_length = stitch.rest_length;
+                }
+            }
         }
         self.keep_winding(bodies);
         self.is_stale |= !lost.is_empty();
         lost
     }
+}
+
+/// The spans of a rope's sticks in small steps of `h` (s).
+fn spans_of_rope(rope: &Deformable, h: f32) -> Vec<Span> {
+    let stretch = rope.fabric.stretch.as_ref();
+    let compliances = stretch.and_then(|stretch| stretch.compliances.as_deref()).unwrap_or(&[]);
+    let compliances = compliances.iter().copied().chain(std::iter::repeat(0.0));
+    let span = |(stick, compliance): (&Stick, f32)| span_of(stick.rest_length, compliance / (h * h));
+    rope.sticks.iter().zip(compliances).map(span).collect()
 }
 
 /// The segments of a rope.

@@ -2,18 +2,21 @@
 
 use std::ops::Range;
 
+use super::air::Sail;
 use super::batch::Batches;
 use super::elastic::Elastic;
+use super::gas::Balloon;
 use super::grid::Grid;
 use super::hinge::Hinges;
 use super::meet::{Exempt, lay_flat};
 use super::points::{Coordinates, Points};
 use super::rest::Rest;
+use super::seam::Seams;
 use super::sheet::Sheet;
 use super::stick::Span;
 use super::tether::{Tethers, distances_along};
 use super::tile::{Bounds, Tile, tiles_of_grid, tiles_of_run};
-use crate::body::{Body, Deformable};
+use crate::body::{Body, Deformable, Stretch};
 use crate::constraint::Stick;
 use crate::particles::Particles;
 use crate::simd::{LANES, Lanes};
@@ -40,6 +43,13 @@ pub(super) struct Piece {
     pub(super) rest: Rest,
     pub(super) tethers: Tethers,
     pub(super) hinges: Hinges,
+    /// Sticks that give, before those that do not.
+    pub(super) elastic: Batches,
+    /// Whether something in it depends on how long a small step is.
+    pub(super) is_elastic: bool,
+    pub(super) seams: Seams,
+    pub(super) sail: Option<Sail>,
+    pub(super) balloon: Option<Balloon>,
     /// How far particles are kept from solids, in m.
     pub(super) thickness: f32,
     /// How far a particle may go in a small step, in m.
@@ -76,7 +86,6 @@ impl Piece {
         let count = body.particles.len();
         let masses = &particles.mass[body.particles.clone()];
         let mean_inverse_mass = count as f32 / masses.iter().sum::<f32>();
-        let span = |stick: &Stick| span_of(stick.rest_length, 0.0);
         let (layout, places, tiles) = match &deformable.grid {
             Some(shape) => {
                 let grid = Grid::new(start, shape.columns as usize, shape.rows as usize);
@@ -89,12 +98,10 @@ impl Piece {
             }
             None => {
                 let places = start..start + count.next_multiple_of(LANES);
-                let placed = |stick: &Stick| ([stick.a + start as u32, stick.b + start as u32], span(stick));
-                let batches = || Batches::new(&deformable.sticks.iter().map(placed).collect::<Vec<_>>());
                 let layout = match (&deformable.flesh, deformable.is_rope(), deformable.is_chain()) {
                     (Some(flesh), ..) => Layout::Solid(Elastic::new(flesh, masses, start)),
-                    (None, false, _) => Layout::Loose(batches()),
-                    (None, true, false) => Layout::Net(batches()),
+                    (None, false, _) => Layout::Loose(stiff_sticks(deformable, start)),
+                    (None, true, false) => Layout::Net(sticks_of_net(deformable, start, h)),
                     (None, true, true) => Layout::Rope,
                 };
                 (layout, places.clone(), tiles_of_run(places))
@@ -113,15 +120,35 @@ impl Piece {
             rest: Rest::default(),
             tethers: Tethers::default(),
             hinges: Hinges::default(),
+            elastic: Batches::new(&[]),
+            is_elastic: deformable.rigidity.is_some() || deformable.fabric.stretch.is_some(),
+            seams: Seams::default(),
+            sail: None,
+            balloon: None,
             thickness: deformable.thickness,
             longest_motion: f32::MAX,
             fastest: 0.0,
             winding: None,
         };
-        let Deformable { angles, bendings, .. } = deformable;
-        piece.hinges = Hinges::new(angles, bendings, |particle| piece.place(particle));
+        piece.dress(deformable, start, h);
         piece.tie(body, deformable, particles);
         piece
+    }
+
+    /// What is not of every cloth and rope: hinges, sticks that give, air, gas and seams.
+    fn dress(&mut self, deformable: &Deformable, start: usize, h: f32) {
+        let Deformable { angles, bendings, triangles, fabric, .. } = deformable;
+        self.hinges =
+            Hinges::new(angles, bendings, fabric.bends_by_stiffness, |particle| self.place(particle));
+        let place = |corner: u32| self.place(corner as usize) as u32;
+        let placed = || triangles.iter().map(|triangle| triangle.map(place)).collect::<Vec<_>>();
+        let sail = fabric.air.map(|air| Sail::new(placed(), air, self.places.clone()));
+        let balloon = fabric.gas.map(|gas| Balloon::new(placed(), gas, self.places.clone()));
+        let seams = Seams::new(&fabric.seams, |particle| self.place(particle));
+        (self.sail, self.balloon, self.seams) = (sail, balloon, seams);
+        if let Layout::Loose(_) = self.layout {
+            self.elastic = elastic_sticks(deformable, start, self.mean_inverse_mass, h);
+        }
     }
 
     /// The place of a particle of the body.
@@ -150,9 +177,16 @@ impl Piece {
             return;
         }
         let count = body.particles.len();
-        let distances = |from: u32| match &deformable.grid {
+        let longest = deformable.fabric.stretch.as_ref().map_or(1.0, Stretch::longest);
+        let along = |from: u32| match &deformable.grid {
             Some(grid) => grid.distances(from),
             None => distances_along(&deformable.sticks, count, from),
+        };
+        // What may be pulled to any length is tied to nothing.
+        let distances = |from: u32| {
+            let mut distances = along(from);
+            distances.iter_mut().for_each(|distance| *distance *= longest);
+            distances
         };
         self.tethers = Tethers::new(&self.held, count, distances, |particle| self.place(particle));
     }
@@ -184,7 +218,9 @@ impl Piece {
         }
         let count =
             deformable.sticks.iter().map(|stick| stick.a.max(stick.b)).max().map_or(0, |last| last + 1);
-        Exempt::along(&deformable.sticks, count as usize, self.places.start, distance * 1.2)
+        let seams = deformable.fabric.seams.iter().map(|seam| Stick { rest_length: 0.0, ..*seam });
+        let sticks: Vec<Stick> = deformable.sticks.iter().copied().chain(seams).collect();
+        Exempt::along(&sticks, count as usize, self.places.start, distance * 1.2)
     }
 
     /// Brings the boxes around tiles up to date.
@@ -198,6 +234,48 @@ impl Piece {
     pub(super) fn bounds(&self) -> Bounds {
         self.boxes.iter().fold(Bounds::EMPTY, |all, bounds| all.with(*bounds))
     }
+}
+
+/// The sticks of a net, by place.
+fn sticks_of_net(net: &Deformable, start: usize, h: f32) -> Batches {
+    let start = start as u32;
+    let placed = |(stick, span): (&Stick, Span)| ([stick.a + start, stick.b + start], span);
+    let sticks: Vec<_> = net.sticks.iter().zip(super::spans_of_rope(net, h)).map(placed).collect();
+    Batches::new(&sticks)
+}
+
+/// The sticks of a mesh that do not give, or not beyond their limit.
+fn stiff_sticks(cloth: &Deformable, start: usize) -> Batches {
+    let start = start as u32;
+    let span = |length: f32| match &cloth.fabric.stretch {
+        None => Some(span_of(length, 0.0)),
+        Some(Stretch { limit: None, .. }) => None,
+        Some(stretch) => {
+            let low = if stretch.compliances.is_some() { 0.0 } else { length };
+            Some(Span { low, high: length * stretch.longest(), compliance: 0.0 })
+        }
+    };
+    let placed =
+        |stick: &Stick| span(stick.rest_length).map(|span| ([stick.a + start, stick.b + start], span));
+    Batches::new(&cloth.sticks.iter().filter_map(placed).collect::<Vec<_>>())
+}
+
+/// The sticks of a mesh that give, in small steps of `h` (s).
+///
+/// Of the sticks around a particle, those swept first see where the forces have taken it, and those swept last where the
+/// first have pulled it back to. On the mean a stick finds half of that and gives by the compliance it has and the inverse
+/// mass of a particle: so much is taken off beforehand.
+fn elastic_sticks(cloth: &Deformable, start: usize, mean_inverse_mass: f32, h: f32) -> Batches {
+    let stretch = cloth.fabric.stretch.as_ref();
+    let Some(compliances) = stretch.and_then(|stretch| stretch.compliances.as_ref()) else {
+        return Batches::new(&[]);
+    };
+    let start = start as u32;
+    let placed = |(stick, compliance): (&Stick, &f32)| {
+        let compliance = (compliance / (h * h) - mean_inverse_mass).max(0.0);
+        ([stick.a + start, stick.b + start], span_of(stick.rest_length, compliance))
+    };
+    Batches::new(&cloth.sticks.iter().zip(compliances).map(placed).collect::<Vec<_>>())
 }
 
 pub(super) fn span_of(length: f32, compliance: f32) -> Span {

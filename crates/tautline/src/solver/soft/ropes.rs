@@ -18,6 +18,8 @@ pub(super) struct Bundle {
     ropes: Vec<Rope>,
     knots: usize,
     spans: Vec<[Row; 3]>,
+    /// Of what is swept: sticks that do not give.
+    stiff: Vec<[Row; 3]>,
     mean_inverse_mass: f32,
     position: Coordinates,
     displacement: Coordinates,
@@ -35,19 +37,26 @@ impl Bundle {
                 rows.iter_mut().zip(numbers).for_each(|(row, number)| row.0[lane] = number);
             }
         }
+        // What gives has all its force from being solved along the rope; sweeping it again would double that.
+        let mut stiff = spans.clone();
+        for [low, high, compliance] in &mut stiff {
+            for lane in (0..LANES).filter(|&lane| compliance.0[lane] > 0.0) {
+                (low.0[lane], high.0[lane]) = (0.0, f32::MAX);
+            }
+        }
         let length = (knots + 1) * LANES;
         let zeros = || vec![0.0; length];
         // What is no knot is apart from its neighbours.
         let position = [(0..length).map(|place| place as f32).collect(), zeros(), zeros()];
         let displacement = [zeros(), zeros(), zeros()];
-        Self { ropes, knots, spans, mean_inverse_mass, position, displacement, masses: zeros() }
+        Self { ropes, knots, spans, stiff, mean_inverse_mass, position, displacement, masses: zeros() }
     }
 
     /// Solves all sticks of each rope together, and sweeps once over them.
     #[inline(always)]
     pub(super) fn solve<L: Lanes>(&mut self, points: &mut Points, pivots: &mut Vec<Pivot<L>>) {
         self.read(points);
-        let Self { knots, spans, position, displacement, masses, .. } = self;
+        let Self { knots, spans, stiff, position, displacement, masses, .. } = self;
         let mut moving = Moving { position, displacement };
         let threads = Threads {
             start: 0,
@@ -59,7 +68,7 @@ impl Bundle {
         };
         threads.solve(&mut moving, masses, pivots);
         for stick in 0..*knots - 1 {
-            let of_stick: Spans<L> = (&spans[..]).span(stick);
+            let of_stick: Spans<L> = (&stiff[..]).span(stick);
             relax_spans(&mut moving, masses, [stick * LANES, (stick + 1) * LANES], of_stick);
         }
         self.write(points);

@@ -13,8 +13,9 @@ use crate::simd::{LANES, Lanes};
 pub(super) struct Sheet {
     pub(super) grid: Grid,
     pub(super) weave: Weave,
-    /// Compliances of bending along rows and along columns, α/h² with the h of two small steps, in 1/kg; `None` = limp.
-    pub(super) bending: Option<[f32; 2]>,
+    /// Compliances of bending along every row and along every column, by place as threads are solved: α/h² with the h of
+    /// two small steps, in 1/kg; `None` = limp.
+    pub(super) bending: Option<[Vec<f32>; 2]>,
     /// 1/m of a particle of mean mass, in 1/kg.
     pub(super) mean_inverse_mass: f32,
     pub(super) windows: Windows,
@@ -31,6 +32,7 @@ struct Turned {
 
 impl Sheet {
     pub(super) fn new(grid: Grid, weave: Weave, bending: Option<[f32; 2]>, mean_inverse_mass: f32) -> Self {
+        let bending = bending.map(|[along, down]| [along_rows(&grid, along), along_columns(&grid, down)]);
         Self {
             grid,
             weave,
@@ -52,7 +54,7 @@ impl Sheet {
         pivots: &mut Vec<Pivot<L>>,
     ) {
         let Grid { start, columns, rows, .. } = self.grid;
-        let bending = self.bending.map(|[along, down]| if is_even { down } else { along });
+        let bending = self.bending.as_ref().map(|[along, down]| if is_even { &down[..] } else { &along[..] });
         if !is_held && bending.is_none() {
             return;
         }
@@ -78,17 +80,36 @@ impl Sheet {
         moving: &mut Moving<'_>,
         masses: &[f32],
         (start, stride, knots, count): (usize, usize, usize, usize),
-        (spans, bending): (Option<Span>, Option<f32>),
+        (spans, bending): (Option<Span>, Option<&[f32]>),
         pivots: &mut Vec<Pivot<L>>,
     ) {
         if let Some(spans) = spans {
             let regularisation = REGULARISATION * self.mean_inverse_mass;
             Threads { start, stride, knots, count, spans, regularisation }.solve(moving, masses, pivots);
         }
-        if let Some(compliance) = bending {
-            Lines { start, stride, knots, count, compliance }.straighten::<L>(moving, masses);
+        if let Some(compliances) = bending {
+            Lines { start, stride, knots, count, compliances }.straighten::<L>(moving, masses);
         }
     }
+}
+
+/// Of every row, in the places that rows have when they are solved as columns; the first and the last row carry half a
+/// cell, and are twice as soft.
+fn along_rows(grid: &Grid, compliance: f32) -> Vec<f32> {
+    let mut compliances = vec![compliance; grid.rows.next_multiple_of(LANES)];
+    for border in [0, grid.rows - 1] {
+        compliances[border] = 2.0 * compliance;
+    }
+    compliances
+}
+
+/// Of every column, in the places of a row.
+fn along_columns(grid: &Grid, compliance: f32) -> Vec<f32> {
+    let mut compliances = vec![compliance; grid.stride()];
+    for border in [0, grid.columns - 1] {
+        compliances[grid.place(0, border) - grid.start] = 2.0 * compliance;
+    }
+    compliances
 }
 
 impl Turned {

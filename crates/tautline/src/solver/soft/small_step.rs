@@ -5,6 +5,7 @@ use glam::Vec3;
 use super::SoftSolver;
 use super::attach::Moment;
 use super::elastic::Stiffen;
+use super::gas;
 use super::hinge;
 use super::patch::{Cone, cone_of};
 use super::piece::{Layout, Piece};
@@ -33,6 +34,10 @@ pub(super) struct Timing {
     pub(super) count: usize,
     /// In m/s².
     pub(super) gravity: Vec3,
+    /// In m/s.
+    pub(super) wind: Vec3,
+    /// In kg/m³.
+    pub(super) air_density: f32,
     /// In 1/s.
     pub(super) damping: f32,
     /// The speed at which what was too deep before is moved out, in m/s.
@@ -57,8 +62,11 @@ impl SoftSolver {
         let instructions = timing.instructions;
         let mut until_search = 0;
         for number in 0..timing.count {
-            self.wind();
+            self.wind_ropes();
+            self.blow(number, timing);
             run(instructions, Integrate(self, timing));
+            self.press(timing.small);
+            self.sew(timing.small);
             if until_search == 0 {
                 let left = timing.count - number;
                 until_search = run(instructions, FindTouches { solver: self, solids, bodies, left });
@@ -163,13 +171,19 @@ impl Kernel for Relax<'_> {
                 piece.tethers.tighten::<L>(points);
             }
             let is_held = piece.is_held();
+            piece.elastic.sweep::<L>(points, lightened);
             match &mut piece.layout {
                 Layout::Sheet(sheet) => {
                     sheet.pull_threads(points, is_held, done.is_multiple_of(2), &mut pivots);
                     let whole = sheet.grid.whole();
                     sheet.grid.sweep::<L>(&mut points.moving().0, lightened, &whole, &sheet.weave);
                 }
-                Layout::Loose(batches) => batches.sweep::<L>(points, lightened),
+                Layout::Loose(batches) => {
+                    let sweeps = if piece.balloon.is_some() { gas::SWEEPS } else { 1 };
+                    for _ in 0..sweeps {
+                        batches.sweep::<L>(points, lightened);
+                    }
+                }
                 Layout::Rope | Layout::Net(_) | Layout::Solid(_) => {}
             }
         }
@@ -199,6 +213,12 @@ impl Kernel for Part<'_> {
 }
 
 impl SoftSolver {
+    fn sew(&mut self, h: f32) {
+        for piece in &mut self.pieces {
+            piece.seams.pull(&mut self.points, h);
+        }
+    }
+
     fn turn_hinges(&mut self, h: f32) {
         if self.done.is_multiple_of(hinge::EVERY) {
             for piece in &self.pieces {

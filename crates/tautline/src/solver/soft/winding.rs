@@ -17,7 +17,7 @@ impl Piece {
 
 impl SoftSolver {
     /// Winds ropes on, at the start of a small step.
-    pub(super) fn wind(&mut self) {
+    pub(super) fn wind_ropes(&mut self) {
         let done = (self.done + 1) as f32 / self.planned as f32;
         for piece in &mut self.pieces {
             let Some(factor) = piece.winding else { continue };
