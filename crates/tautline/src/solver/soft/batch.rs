@@ -72,11 +72,14 @@ impl Batch {
 
     #[inline(always)]
     fn relax<L: Lanes>(&self, points: &mut Points, masses: &[f32], scale: f32) {
-        let (mut between, mut free) = ([Row::ZERO; 3], [Row::ZERO; 2]);
+        let (mut between, mut before, mut free) = ([Row::ZERO; 3], [Row::ZERO; 3], [Row::ZERO; 2]);
         for lane in 0..self.count {
             let (a, b) = (self.ends[0][lane] as usize, self.ends[1][lane] as usize);
             for (row, numbers) in between.iter_mut().zip(&points.position) {
                 row.0[lane] = numbers[b] - numbers[a];
+            }
+            for (axis, numbers) in points.displacement.iter().enumerate() {
+                before[axis].0[lane] = between[axis].0[lane] - (numbers[b] - numbers[a]);
             }
             (free[0].0[lane], free[1].0[lane]) = (masses[a], masses[b]);
         }
@@ -85,7 +88,7 @@ impl Batch {
         let [low, high] = [L::load(low) * scale, L::load(high) * scale];
         let spans = Spans { low, high, compliance: L::load(compliance) };
         let [first, second] = [L::load(&free[0]), L::load(&free[1])];
-        let pull = pull(Vec3x8::load(&between), [first, second], spans);
+        let pull = pull(Vec3x8::load(&between), Vec3x8::load(&before), [first, second], spans);
         let mut shifts = [[Row::ZERO; 3]; 2];
         (pull * first).store(&mut shifts[0]);
         (pull * second).store(&mut shifts[1]);

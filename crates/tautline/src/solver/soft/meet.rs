@@ -18,6 +18,8 @@ use glam::Vec3;
 const SMOOTH: f32 = 0.258_819_05;
 /// How far beyond the thickness pairs are listed, in thicknesses.
 const MARGIN: f32 = 0.25;
+/// How far beyond the thickness, in thicknesses, pairs may be that the others of a pass push into each other.
+const PUSH: f32 = 0.1;
 /// What was too close is moved apart by this share of the distance in a small step, if that is more than else: cloth that
 /// has come through itself is not to stay there.
 const HURRY: f32 = 0.05;
@@ -215,7 +217,7 @@ impl Meetings {
                     list.moved = 0.0;
                     self.list_pairs::<L>(points, &mut list);
                 }
-                list.keep_near(points, distance + soon);
+                list.keep_near(points, distance * (1.0 + PUSH) + soon);
                 lists.push(list);
             }
         }

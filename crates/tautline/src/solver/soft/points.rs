@@ -180,6 +180,12 @@ impl MovingEights<'_> {
         self.at.read(eight)
     }
 
+    /// The positions of the eight of this number, and how they have moved in this small step.
+    #[inline(always)]
+    pub(super) fn read_both<L: Lanes>(&self, eight: usize) -> [Vec3x8<L>; 2] {
+        [self.at.read(eight), self.moved.read(eight)]
+    }
+
     /// Moves them by `by` from `at`, where they are.
     #[inline(always)]
     pub(super) fn shift<L: Lanes>(&mut self, eight: usize, at: Vec3x8<L>, by: Vec3x8<L>) {

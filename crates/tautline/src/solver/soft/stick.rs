@@ -51,15 +51,25 @@ impl<L: Lanes> SpanAt<L> for &[[Row; 3]] {
 }
 
 /// How eight sticks want their ends moved, per unit of inverse mass: the end at `from` by the result, the other by its
-/// reverse. C = l − (l kept in the span), s = C/(l (w_a + w_b + α/h²)) (Macklin, Müller and Chentanez 2016, Eq 18, with
-/// one iteration). Nothing where both ends are held.
+/// reverse. C = l − (l kept in the span), along what lay between the ends when the small step began, b: s = C l/(r·b (w_a +
+/// w_b + α/h²)) (Macklin, Müller and Chentanez 2016, Eq 18, with one iteration). Impulses along r, as it is now, would
+/// brake what turns, by ω³h; those along b keep its angular momentum to the last bit that rounding leaves (SHAKE; Ryckaert,
+/// Ciccotti and Berendsen 1977). What has turned by more than 60° goes along r. Nothing where both ends are held.
 #[inline(always)]
-pub(super) fn pull<L: Lanes>(between: Vec3x8<L>, masses: [L; 2], spans: Spans<L>) -> Vec3x8<L> {
+pub(super) fn pull<L: Lanes>(
+    between: Vec3x8<L>,
+    before: Vec3x8<L>,
+    masses: [L; 2],
+    spans: Spans<L>,
+) -> Vec3x8<L> {
     let free = masses[0] + masses[1];
-    let length = between.length_squared().max(L::splat(1e-24)).sqrt();
+    let squared = between.length_squared().max(L::splat(1e-24));
+    let (length, along) = (squared.sqrt(), between.dot(before));
+    let is_steady = along.greater(squared * L::splat(0.5));
+    let direction = Vec3x8::select(is_steady, before, between);
     let excess = length - length.max(spans.low).min(spans.high);
-    let share = excess / (length * (free + spans.compliance));
-    between * free.greater(L::splat(0.0)).and(share)
+    let share = excess * length / (is_steady.select(along, squared) * (free + spans.compliance));
+    direction * free.greater(L::splat(0.0)).and(share)
 }
 
 /// Relaxes `count` sticks: number k is from place `a + k` to `b + k`, and no place is in two of them.
@@ -74,8 +84,9 @@ pub(super) fn relax_run<L: Lanes>(
     let (masses_a, masses_b) = (eights(&masses[a..a + full]), eights(&masses[b..b + full]));
     let [mut from, mut to] = moving.two_runs(a, b, full);
     for (eight, (wa, wb)) in masses_a.iter().zip(masses_b).enumerate() {
-        let (at_a, at_b, masses) = (from.read(eight), to.read(eight), [L::read(wa), L::read(wb)]);
-        let pull = pull(at_b - at_a, masses, spans);
+        let ([at_a, moved_a], [at_b, moved_b]) = (from.read_both(eight), to.read_both(eight));
+        let (between, masses) = (at_b - at_a, [L::read(wa), L::read(wb)]);
+        let pull = pull(between, between - (moved_b - moved_a), masses, spans);
         from.shift(eight, at_a, pull * masses[0]);
         to.shift(eight, at_b, -(pull * masses[1]));
     }
@@ -100,7 +111,8 @@ pub(super) fn relax_spans<L: Lanes>(
 #[inline(always)]
 fn relax<L: Lanes>([a, b]: [usize; 2], moving: &mut Moving<'_>, masses: [L; 2], spans: Spans<L>) {
     let between = Vec3x8::read(moving.position, b) - Vec3x8::read(moving.position, a);
-    let pull = pull(between, masses, spans);
+    let apart = Vec3x8::read(moving.displacement, b) - Vec3x8::read(moving.displacement, a);
+    let pull = pull(between, between - apart, masses, spans);
     moving.shift(a, pull * masses[0]);
     moving.shift(b, -(pull * masses[1]));
 }

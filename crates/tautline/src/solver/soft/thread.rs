@@ -1,10 +1,11 @@
 //! Sticks one after another, all solved together: rows and columns of a sheet, and ropes, eight side by side.
 //!
-//! For sticks with the directions u_j and the excess lengths C_j, the corrections w (λ_j u_j − λ_{j+1} u_{j+1}) that end
-//! all C at once to first order are those of the tridiagonal system
-//! (w_j + w_{j+1} + ε) λ_j − w_j u_{j−1}·u_j λ_{j−1} − w_{j+1} u_j·u_{j+1} λ_{j+1} = −C_j. Elimination takes one pass down
-//! and one up. The regularisation ε, a share of a particle's inverse mass, keeps folds from being pulled straight at
-//! once; it lets threads give, so that a sweep over the sticks has to follow.
+//! For sticks with the directions n_j and the excess lengths C_j, whose ends are moved along u_j, the directions when the
+//! small step began (as `stick::pull` does), the corrections w (λ_j u_j − λ_{j+1} u_{j+1}) that end all C at once to first
+//! order are those of the tridiagonal system
+//! ((w_j + w_{j+1}) n_j·u_j + ε) λ_j − w_j n_j·u_{j−1} λ_{j−1} − w_{j+1} n_j·u_{j+1} λ_{j+1} = −C_j. Elimination takes one
+//! pass down and one up. The regularisation ε, a share of a particle's inverse mass, keeps folds from being pulled straight
+//! at once; it lets threads give, so that a sweep over the sticks has to follow.
 
 use super::points::{Moving, MovingEights, eights};
 use super::stick::SpanAt;
@@ -31,6 +32,7 @@ pub(super) struct Threads<S> {
 /// What is remembered of eight sticks side by side on the way down: λ_j = remainder + ratio λ_{j+1}.
 #[derive(Clone, Copy)]
 pub(super) struct Pivot<L> {
+    /// Along what its ends are moved.
     direction: Vec3x8<L>,
     remainder: L,
     ratio: L,
@@ -62,30 +64,36 @@ impl<S> Threads<S> {
     {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         let stride = self.stride / LANES;
-        let (mut above, mut mass) = (knots.read::<L>(first), L::read(&masses[first]));
-        let (mut direction, mut remainder, mut inverse) = (Vec3x8::zero(), zero, zero);
+        let (mut above, mut mass) = (knots.read_both::<L>(first), L::read(&masses[first]));
+        // Of the stick above: its direction, and along what its ends are moved.
+        let (mut direction, mut push) = (Vec3x8::zero(), Vec3x8::zero());
+        let (mut remainder, mut inverse) = (zero, zero);
         pivots.clear();
         for stick in 0..self.knots - 1 {
             let eight = first + (stick + 1) * stride;
-            let (below, next_mass) = (knots.read(eight), L::read(&masses[eight]));
-            let between = below - above;
-            let length = between.length_squared().max(L::splat(1e-24)).sqrt();
+            let (below, next_mass) = (knots.read_both(eight), L::read(&masses[eight]));
+            let between = below[0] - above[0];
+            let before = between - (below[1] - above[1]);
+            let squared = between.length_squared().max(L::splat(1e-24));
+            let (length, is_steady) = (squared.sqrt(), between.dot(before).greater(squared * L::splat(0.5)));
             let spans = self.spans.span(stick);
             let free = mass + next_mass;
             let is_free = free.greater(zero);
             let excess = is_free.and(length - length.max(spans.low).min(spans.high));
-            let next = between * is_free.and(one / length);
-            // Minus the element beside the diagonal.
-            let beside = mass * direction.dot(next);
-            let ratio = beside * inverse;
+            let per_length = is_free.and(one / length);
+            let next = between * per_length;
+            let next_push = Vec3x8::select(is_steady, before, between) * per_length;
+            // Minus the elements beside the diagonal: of the stick above, and of this one.
+            let (right, left) = (mass * direction.dot(next_push), mass * push.dot(next));
+            let ratio = right * inverse;
             if let Some(last) = pivots.last_mut() {
                 last.ratio = ratio;
             }
-            let diagonal = free + L::splat(self.regularisation) + spans.compliance;
-            inverse = one / (diagonal - beside * ratio);
-            remainder = (beside * remainder - excess) * inverse;
-            pivots.push(Pivot { direction: next, remainder, ratio: zero });
-            (above, mass, direction) = (below, next_mass, next);
+            let diagonal = free * next.dot(next_push) + L::splat(self.regularisation) + spans.compliance;
+            inverse = one / (diagonal - left * ratio);
+            remainder = (left * remainder - excess) * inverse;
+            pivots.push(Pivot { direction: next_push, remainder, ratio: zero });
+            (above, mass, direction, push) = (below, next_mass, next, next_push);
         }
     }
 

@@ -45,12 +45,13 @@ impl Kernel for Sweep<'_> {
 /// All sticks with both ends in a window, one by one; rows are even or odd as counted from its first.
 fn swept(grid: &Grid, window: &Window) -> Vec<DVec3> {
     let (positions, masses) = sheet(grid);
-    let mut expected = in_f64(&positions);
+    let start = in_f64(&positions);
+    let mut expected = start.clone();
     let place =
         |[row, column]: [usize; 2]| grid.place(window.rows.start + row, window.columns.start + column);
     for (number, colour) in sticks_by_colour(window.columns.len(), window.rows.len()).iter().enumerate() {
         for ends in colour {
-            relax_in_f64(&mut expected, &masses, ends.map(place), WEAVE[number / 2]);
+            relax_in_f64(&mut expected, &start, &masses, ends.map(place), WEAVE[number / 2]);
         }
     }
     expected

@@ -25,7 +25,7 @@ fn scene(meets_itself: bool) -> Scene {
     let end = grids[1].places().end;
     let mut points = Points::default();
     points.reset(end);
-    grids.iter().zip([0.3, 0.0]).for_each(|(grid, height)| put_wavy(&mut points, grid, height));
+    grids.iter().zip([0.2, 0.0]).for_each(|(grid, height)| put_wavy(&mut points, grid, height));
     let mut meetings = Meetings::default();
     meetings.reset(points.inverse_mass.len());
     for grid in &grids {

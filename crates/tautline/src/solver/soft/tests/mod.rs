@@ -67,9 +67,11 @@ pub(super) fn farthest(positions: &Coordinates, expected: &[DVec3]) -> f64 {
     in_f64(positions).iter().zip(expected).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
 }
 
-/// A stick in f64, relaxed once: least and greatest length, α/h².
+/// A stick in f64, relaxed once along what lay between its ends at the `start`, unless it has turned far from it: least
+/// and greatest length, α/h².
 pub(super) fn relax_in_f64(
     positions: &mut [DVec3],
+    start: &[DVec3],
     masses: &[f32],
     [a, b]: [usize; 2],
     [low, high, compliance]: [f32; 3],
@@ -81,7 +83,11 @@ pub(super) fn relax_in_f64(
     let between = positions[b] - positions[a];
     let length = between.length();
     let excess = length - length.clamp(f64::from(low), f64::from(high));
-    let pull = between / length * (excess / (wa + wb + f64::from(compliance)));
+    let before = start[b] - start[a];
+    let is_steady = between.dot(before) > 0.5 * length * length;
+    let direction = if is_steady { before } else { between };
+    let along = between.dot(direction) / length;
+    let pull = direction * (excess / (along * (wa + wb + f64::from(compliance))));
     positions[a] += pull * wa;
     positions[b] -= pull * wb;
 }
