@@ -17,7 +17,10 @@ pub(super) fn cases() -> Vec<Case> {
         group: "Conservation",
         name: "closed cloud without gravity, 5 s",
         formula: "Σp and ΣL stay, energy never grows",
-        note: "64 balls, boxes and capsules thrown at each other. Σp is relative to Σm|v|, ΣL to Σm|x||v|, both at the start.",
+        note: "64 balls, boxes and capsules thrown at each other. Σp is relative to Σm|v|, ΣL to Σm|x||v|, \
+               both at the start. The arms of a contact are those of the step's beginning, and bodies slide past each other \
+               in a step: ΣL is off a thirtieth of this in steps of 1/480 s with one substep, and no less with more \
+               substeps to a step.",
         trials: [(0.0, 0.5), (0.5, 0.5), (0.0, 0.0), (1.0, 0.0)].map(trial).into(),
     }]
 }

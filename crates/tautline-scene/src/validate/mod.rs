@@ -11,6 +11,7 @@ mod cloud;
 mod collide;
 mod depth;
 mod drape;
+mod elastica;
 mod flight;
 mod lab;
 mod peers;
@@ -47,6 +48,7 @@ pub fn cases() -> Vec<Case> {
     cases.extend(rope::cases());
     cases.extend(pulley::cases());
     cases.extend(drape::cases());
+    cases.extend(elastica::cases());
     cases.sort_by_key(|case| case.id);
     cases
 }

@@ -29,7 +29,9 @@ pub(super) fn cases() -> Vec<Case> {
         group: "Conservation",
         name: "motion reversed in time",
         formula: "returns to its start",
-        note: "The furthest corner of the body from where it was, after so many steps and as many back.",
+        note: "The furthest corner of the body from where it was, after so many steps and as many back. \
+               Neither more substeps nor fewer bring what spins nearer (3e-5 to 2e-4 m with 2 to 64): f32 rounds off 1e-6 of \
+               the angle that it turns by, 90 rad there and back.",
         trials: variants.map(trial).into(),
     }]
 }

@@ -25,7 +25,7 @@ struct Roller {
 }
 
 fn faceted(radius: f32) -> Result<Shape, Error> {
-    Shape::convex_hull(&primitives::icosphere(radius, 4)?.positions)
+    Shape::convex_hull(&primitives::icosphere(radius, 5)?.positions)
 }
 
 const LYING: f32 = std::f32::consts::FRAC_PI_2;
@@ -56,7 +56,7 @@ fn rolling() -> Case {
     };
     let ball = Roller { name: "ball of 1 m", shape: Shape::sphere, radius: 0.5, tip: 0.0 };
     let small = Roller { name: "ball of 10 cm", radius: 0.05, ..ball };
-    let faceted = Roller { name: "hull of 2562 vertices", shape: faceted, ..ball };
+    let faceted = Roller { name: "hull of 10 242 vertices", shape: faceted, ..ball };
     let capsule = |radius: f32| Shape::capsule(radius, 0.5);
     let capsule = Roller { name: "capsule", shape: capsule, radius: 0.2, tip: LYING };
     let variants = [(ball, 20.0), (small, 20.0), (faceted, 20.0), (capsule, 20.0), (ball, 5.0), (ball, 40.0)];
@@ -65,7 +65,8 @@ fn rolling() -> Case {
         group: "Rolling and toppling",
         name: "a round body rolls down",
         formula: "a = g sin θ/(1 + I/mr²)",
-        note: "I is that of the body as it is, of a faceted one too.",
+        note: "I is that of the body as it is, of a faceted one too. A hull tips from facet to facet and loses energy at each, as \
+               a wheel without a rim does: about 5, 1, 0.5 and 0.4 % with 642, 2562, 10 242 and 40 962 vertices.",
         trials: variants.map(trial).into(),
     }
 }

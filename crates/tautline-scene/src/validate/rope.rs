@@ -108,44 +108,118 @@ fn tip_mass() -> Case {
     }
 }
 
-/// A string of 1 m and 1 kg under this tension, in N: about 1 Hz.
+/// Of a string of 1 m and 1 kg, in N: about half a vibration a second.
 const TENSION: f64 = 4.0;
-/// So many times as heavy as the string is what draws it.
-const HEAVY: f64 = 200.0;
+/// By what share of its length a string between two pins is stretched.
+const STRETCHED: f64 = 0.25;
+/// How high a string vibrates, in m: so little that its tension stays.
+const HEIGHT: f64 = 1e-3;
+
+/// What keeps a string under tension.
+#[derive(Clone, Copy)]
+enum Drawn {
+    /// It is elastic, and held at both ends.
+    Elastic,
+    /// It does not give, and forces draw both ends, which are free to move up and down and weigh half as much as a particle:
+    /// its modes are those between two pins, with bellies at the ends.
+    AtBoth,
+    /// The same, but one end is held: half a string of twice as many links, in its odd modes.
+    AtOne,
+}
+
+impl Drawn {
+    /// Links of the whole string.
+    fn whole(self, links: u32) -> u32 {
+        match self {
+            Self::Elastic | Self::AtBoth => links,
+            Self::AtOne => 2 * links,
+        }
+    }
+
+    /// A string of 1 m between its ends, in one of its modes.
+    fn string(self, world: &mut World, links: u32, mode: u32) -> Result<BodyHandle, Error> {
+        let phase = |i: u32| PI * f64::from(mode * i) / f64::from(self.whole(links));
+        let shape = |i: u32| match self {
+            Self::Elastic | Self::AtOne => libm::sin(phase(i)),
+            Self::AtBoth => libm::cos(phase(i)),
+        };
+        let height = |i: u32| HEIGHT / f64::from(mode) * shape(i);
+        let point = |i: u32| Vec3::new(i as f32 / links as f32, height(i) as f32, 0.0);
+        let mass = 1.0 / f64::from(links);
+        let rope = Rope::through((0..=links).map(point).collect()).radius(1e-3);
+        let rope = rope.mass((mass * f64::from(links + 1)) as f32);
+        if let Self::Elastic = self {
+            let compliance = STRETCHED / TENSION;
+            let length = 1.0 / (1.0 + STRETCHED);
+            return world.add(rope.length(length as f32).compliance(compliance as f32).pin_ends());
+        }
+        let rope = world.add(if let Self::AtOne = self { rope.pin(0) } else { rope })?;
+        for end in self.drawn_ends(links) {
+            world.set_particle_mass(rope, end, (0.5 * mass) as f32)?;
+        }
+        Ok(rope)
+    }
+
+    fn drawn_ends(self, links: u32) -> Vec<u32> {
+        match self {
+            Self::Elastic => vec![],
+            Self::AtBoth => vec![0, links],
+            Self::AtOne => vec![links],
+        }
+    }
+}
 
 fn string() -> Case {
-    let trial = |(links, mode): (u32, u32)| {
+    let trial = |(drawn, links, mode): (Drawn, u32, u32)| {
         Trial::one(move |conditions| {
             let mut world = conditions.weightless()?;
-            let phase = |i: u32| PI * f64::from(mode * i) / f64::from(links);
-            // So little that the length does not change in f32.
-            let point = |i: u32| Vec3::new(i as f32 / links as f32, (1e-4 * libm::sin(phase(i))) as f32, 0.0);
-            let mass = 1.0 / f64::from(links);
-            let rope = Rope::through((0..=links).map(point).collect()).radius(1e-3).pin(0);
-            let rope = world.add(rope.mass((mass * f64::from(links + 1)) as f32))?;
-            world.set_particle_mass(rope, links, HEAVY as f32)?;
+            let rope = drawn.string(&mut world, links, mode)?;
             // A belly of the mode.
-            let belly = (links / (2 * mode)) as usize;
+            let belly = match drawn {
+                Drawn::Elastic => links / (2 * mode),
+                Drawn::AtBoth | Drawn::AtOne => links,
+            };
             let mut crossings = Crossings::default();
             for _ in 0..steps(8.0) {
-                world.apply_force_at(rope, links, Vec3::X * TENSION as f32)?;
+                for end in drawn.drawn_ends(links) {
+                    let way = if end == 0 { Vec3::NEG_X } else { Vec3::X };
+                    world.apply_force_at(rope, end, way * TENSION as f32)?;
+                }
                 world.step(DT)?;
-                crossings.add(world.time(), f64::from(world.body(rope)?.positions()[belly].y));
+                crossings.add(world.time(), f64::from(world.body(rope)?.positions()[belly as usize].y));
             }
-            let edge = 1.0 / f64::from(links);
-            let expected =
-                (TENSION / (mass * edge)).sqrt() / PI * libm::sin(0.5 * PI * f64::from(mode) * edge);
-            let name = format!("{links} links, mode {mode}");
+            let (edge, mass) = (1.0 / f64::from(links), 1.0 / f64::from(links));
+            let turn = 0.5 * PI * f64::from(mode) / f64::from(drawn.whole(links));
+            let expected = (TENSION / (mass * edge)).sqrt() / PI * libm::sin(turn);
+            let how = match drawn {
+                Drawn::Elastic => "elastic",
+                Drawn::AtBoth => "drawn at both ends",
+                Drawn::AtOne => "drawn at one end",
+            };
+            let name = format!("{how}, {links} links, mode {mode}");
             Ok(Part::relative(name, [1.0 / crossings.period(), expected], 5e-3, "Hz"))
         })
     };
+    use Drawn::{AtBoth, AtOne, Elastic};
+    let variants = [
+        (Elastic, 20, 1),
+        (Elastic, 20, 5),
+        (Elastic, 60, 3),
+        (AtBoth, 20, 1),
+        (AtBoth, 20, 5),
+        (AtBoth, 60, 3),
+        (AtOne, 20, 1),
+        (AtOne, 60, 5),
+    ];
     Case {
         id: 26,
         group: "Cloth and rope",
         name: "a vibrating string",
         formula: "f_k = (1/π) √(T/(m a)) sin(kπ/2N)",
-        note: "1 m, 1 kg, held at one end and drawn with 4 N at a particle of 200 kg at the other; 0.1 mm high.",
-        trials: [(20, 1), (20, 2), (20, 5), (60, 1), (60, 3)].map(trial).into(),
+        note: "1 m, 1 kg, 4 N, 1 mm/k high. Elastic between two pins; or of fixed length, drawn at both ends, which are free \
+               and weigh m/2; or held at one: half of a string of 2N links, by symmetry. Where one \
+               end is pinned, tethers to it take the tension before the links are solved, and so out of the string.",
+        trials: variants.map(trial).into(),
     }
 }
 
