@@ -7,6 +7,7 @@ use tautline::mesh::TriMesh;
 use tautline::{BodyHandle, Error, Quat, Vec3, World};
 
 use super::attachment::{anchor, strength};
+use super::cue::Cue;
 use super::joint::joint;
 use super::rigid::{rigid_body, surface, truss_body};
 use super::shape::{Make, Solids, triangles, unread};
@@ -14,7 +15,7 @@ use super::soft::soft_solid;
 use super::wall;
 use super::{Look, Part};
 use crate::document::{
-    Anchor, Attachment, Body, BodyRef, Cloth, Color, HalfSpace, Joint, Motion, Pin, Rigid, Room, Rope,
+    self, Anchor, Attachment, Body, BodyRef, Cloth, Color, HalfSpace, Joint, Motion, Pin, Rigid, Room, Rope,
     RopeEnd, Rotation, SheetPlace, SoftSolid, Surface, Thread,
 };
 use crate::render::palette;
@@ -212,6 +213,13 @@ impl Builder {
         let (a, b) = (anchor_of(&document.a)?, anchor_of(&document.b)?);
         self.world.attach(a, b, strength(document))?;
         Ok(())
+    }
+
+    /// A cue for a body that has been added.
+    pub(super) fn cue(&self, document: &document::Cue) -> Result<Cue, Error> {
+        let (_, body) = self.find("body", &document.body)?;
+        let document::Cue { at, velocity, angular_velocity, .. } = *document;
+        Ok(Cue { at, body, velocity: velocity.into(), angular_velocity: angular_velocity.into() })
     }
 
     fn find(&self, field: &str, body: &BodyRef) -> Result<(usize, BodyHandle), Error> {

@@ -2,6 +2,7 @@
 
 mod attachment;
 mod body;
+mod cue;
 mod joint;
 mod rigid;
 mod settings;
@@ -19,6 +20,8 @@ use crate::error::{Error, Problem};
 use crate::render::Camera;
 use body::Builder;
 
+pub use cue::Cue;
+
 /// A scene ready to run: its world, and what is needed to draw and judge it.
 #[derive(Debug, Clone)]
 pub struct BuiltScene {
@@ -30,6 +33,8 @@ pub struct BuiltScene {
     pub parts: Vec<Part>,
     /// Where it is seen from; `None` leaves that to who draws it.
     pub camera: Option<Camera>,
+    /// What happens at a time.
+    pub cues: Vec<Cue>,
     /// The box that bodies belong in, if any.
     pub bounds: Option<Bounds>,
     /// How long it runs, in s.
@@ -107,12 +112,14 @@ impl Scene {
         if !problems.is_empty() {
             return Err(Error::Invalid(problems));
         }
+        let cues = self.cues.iter().map(|cue| builder.cue(cue)).collect::<Result<_, _>>()?;
         let (world, parts) = builder.finish();
         Ok(BuiltScene {
             name: self.name.clone(),
             world,
             parts,
             camera: self.camera.as_ref().map(camera),
+            cues,
             bounds: self.bounds.clone(),
             seconds: self.seconds,
             dt: self.dt,

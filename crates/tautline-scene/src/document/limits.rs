@@ -8,6 +8,8 @@ pub const BODIES: usize = 50_000;
 pub const JOINTS: usize = 100_000;
 /// Attachments of a scene.
 pub const ATTACHMENTS: usize = 100_000;
+/// Cues of a scene.
+pub const CUES: usize = 100_000;
 /// Particles of a scene, over all bodies.
 pub const PARTICLES: u64 = 1_000_000;
 /// Triangles of a scene, over all meshes that are given as triangles.

@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 
 use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
 
-use super::{Attachment, Body, Joint, limits};
+use super::{Attachment, Body, Cue, Joint, limits};
 
 pub(super) fn bodies<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Body>, D::Error> {
     limited(deserializer, limits::BODIES, "bodies")
@@ -17,6 +17,10 @@ pub(super) fn joints<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<J
 
 pub(super) fn attachments<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Attachment>, D::Error> {
     limited(deserializer, limits::ATTACHMENTS, "attachments")
+}
+
+pub(super) fn cues<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Cue>, D::Error> {
+    limited(deserializer, limits::CUES, "cues")
 }
 
 /// Stops at the first item one too many, so that a long list takes no memory.

@@ -7,6 +7,7 @@
 mod attachment;
 mod body;
 mod check;
+mod cue;
 mod joint;
 pub mod limits;
 mod list;
@@ -24,6 +25,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 pub use attachment::{Anchor, AnchorPlace, Attachment};
 pub use body::{Body, Cloth, HalfSpace, Room, Rope};
+pub use cue::Cue;
 pub use joint::{Joint, JointKind, Motor, Spring};
 pub use parse::{Format, parse};
 pub use rigid::{Damping, Groups, Motion, Rigid};
@@ -73,6 +75,9 @@ pub struct Scene {
     /// What holds cloth and rope to each other and to everything else.
     #[serde(default, deserialize_with = "list::attachments", skip_serializing_if = "Vec::is_empty")]
     pub attachments: Vec<Attachment>,
+    /// What happens at a time.
+    #[serde(default, deserialize_with = "list::cues", skip_serializing_if = "Vec::is_empty")]
+    pub cues: Vec<Cue>,
     /// Where it is seen from; a view of everything if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub camera: Option<Camera>,
@@ -96,6 +101,7 @@ impl Default for Scene {
             bodies: Vec::new(),
             joints: Vec::new(),
             attachments: Vec::new(),
+            cues: Vec::new(),
             camera: None,
             bounds: None,
         }

@@ -1,17 +1,26 @@
 //! The named scenes: the one place where the command line, tests and benchmarks get their scenes from. Each is
 //! a function from parameters to a document, so that every scene can be written out, changed and read again.
 
+mod bag;
 mod balance;
+mod bridge;
 mod chain;
 mod cloth;
+mod garment;
+mod hold;
 mod impact;
 mod jelly;
+mod knot;
+mod net;
 mod parameter;
 mod ragdoll;
 mod rigid;
 mod rope;
 mod stacks;
+mod table;
 mod together;
+mod trampoline;
+mod window;
 
 use crate::document::Scene;
 use crate::error::Error;
@@ -68,6 +77,14 @@ pub fn scenes() -> &'static [NamedScene] {
         rope::WHIP,
         together::HAMMOCK,
         jelly::JELLY,
+        table::TABLECLOTH,
+        window::CURTAINS,
+        net::NET,
+        bridge::BRIDGE,
+        bag::MARBLES,
+        trampoline::TRAMPOLINE,
+        knot::KNOT,
+        garment::GARMENTS,
     ]
 }
 

@@ -121,6 +121,7 @@ impl Run {
     pub fn step(&mut self) -> Result<StepReport, Error> {
         let start = Instant::now();
         let mut clock = || start.elapsed().as_secs_f64();
+        self.scene.follow_cues()?;
         let report = self.scene.world.step_with_clock(self.scene.dt, &mut clock)?;
         self.tally.add(&report, start.elapsed());
         if let Some(recorder) = &mut self.recorder

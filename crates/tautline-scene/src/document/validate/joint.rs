@@ -73,21 +73,19 @@ impl<'a> Sides<'a> {
         Ok((index, &self.bodies[index]))
     }
 
-    /// The rigid body and its index, or what is wrong.
-    fn find(&self, body: &BodyRef) -> Result<(usize, &'a Rigid), String> {
+    /// The rigid body and its index, or what is wrong; `hint` says what else is meant.
+    pub(super) fn find(&self, body: &BodyRef, hint: &str) -> Result<(usize, &'a Rigid), String> {
         let (index, body) = self.body(body)?;
         match body {
             Body::Rigid(rigid) => Ok((index, rigid)),
-            other => {
-                let hint = "joints hold rigid bodies, and a joint without a base is held by the world";
-                Err(format!("bodies[{index}] is a {}: {hint}", other.kind()))
-            }
+            other => Err(format!("bodies[{index}] is a {}: {hint}", other.kind())),
         }
     }
 }
 
 fn check_sides(c: &mut Checker, joint: &Joint, sides: &Sides) {
-    let mut found = |field: &str, body: &BodyRef| match sides.find(body) {
+    let hint = "joints hold rigid bodies, and a joint without a base is held by the world";
+    let mut found = |field: &str, body: &BodyRef| match sides.find(body, hint) {
         Ok(side) => Some(side),
         Err(message) => {
             c.problem(field, message);

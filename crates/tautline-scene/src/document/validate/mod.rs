@@ -1,6 +1,7 @@
 //! Judges a document: every value that is wrong, with its path.
 
 mod attachment;
+mod cue;
 mod joint;
 mod rigid;
 mod shape;
@@ -19,6 +20,7 @@ use super::{
 };
 use crate::error::{Error, Problem};
 use attachment::check_attachments;
+use cue::check_cues;
 use joint::check_joints;
 use rigid::check_rigid;
 use shape::check_surface;
@@ -54,6 +56,7 @@ impl Scene {
         check_bodies(&mut c, &self.bodies, self.has_trusses());
         check_joints(&mut c, self);
         check_attachments(&mut c, self);
+        check_cues(&mut c, self);
         if let Some(Camera { eye, target, fov }) = &self.camera {
             c.within("camera", |c| {
                 c.vector("eye", eye, COORDINATE);
