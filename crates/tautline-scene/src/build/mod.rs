@@ -2,6 +2,7 @@
 
 mod attachment;
 mod body;
+mod cloth;
 mod joint;
 mod rigid;
 mod settings;

@@ -7,6 +7,7 @@
 mod attachment;
 mod body;
 mod check;
+mod cloth;
 mod joint;
 pub mod limits;
 mod list;
@@ -23,7 +24,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 
 pub use attachment::{Anchor, AnchorPlace, Attachment};
-pub use body::{Body, Cloth, HalfSpace, Room, Rope};
+pub use body::{Body, HalfSpace, Room, Rope};
+pub use cloth::Cloth;
 pub use joint::{Joint, JointKind, Motor, Spring};
 pub use parse::{Format, parse};
 pub use rigid::{Damping, Groups, Motion, Rigid};
