@@ -193,7 +193,8 @@ fn settings_are_the_solvers_own_unless_they_are_given() {
     assert_eq!(settings("solver: 'paper'"), tautline::Settings::paper());
     let given = settings(
         "gravity: [1, 2, 3], substeps: 3, features_per_pair: 2, separation_speed: 1.5, sweeps: 7, tolerance: 0.25,
-         ordering: 'as-built', square_root: 'first-order', damping: 0.5, broad_phase: 'all-pairs', sleep: 'never'",
+         ordering: 'as-built', square_root: 'first-order', damping: 0.5, wind: [4, 5, 6], air_density: 1.5,
+         broad_phase: 'all-pairs', sleep: 'never'",
     );
     let relaxation = tautline::Relaxation {
         sweeps: 7,
@@ -208,6 +209,8 @@ fn settings_are_the_solvers_own_unless_they_are_given() {
         separation_speed: Some(1.5),
         relaxation,
         damping: 0.5,
+        wind: Vec3::new(4.0, 5.0, 6.0),
+        air_density: 1.5,
         broad_phase: tautline::BroadPhase::AllPairs,
         sleep: None,
         ..tautline::Settings::default()
@@ -220,13 +223,19 @@ fn settings_are_the_solvers_own_unless_they_are_given() {
 #[test]
 fn another_solver_comes_with_its_own_choices() {
     let mut scene =
-        parse("{tautline: 1, settings: {substeps: 3, damping: 0.5, gravity: [0, 0, 0]}}", Format::Json5)
+        parse("{tautline: 1, settings: {substeps: 3, damping: 0.5, wind: [1, 0, 0], air_density: 2, gravity: [0, 0, 0]}}", Format::Json5)
             .unwrap();
     scene.settings.use_solver(Solver::Default);
     assert_eq!(scene.settings.substeps, Some(3));
     scene.settings.use_solver(Solver::Paper);
     let settings = scene.build().unwrap().world.settings().clone();
-    let expected = tautline::Settings { gravity: Vec3::ZERO, damping: 0.5, ..tautline::Settings::paper() };
+    let expected = tautline::Settings {
+        gravity: Vec3::ZERO,
+        damping: 0.5,
+        wind: Vec3::X,
+        air_density: 2.0,
+        ..tautline::Settings::paper()
+    };
     assert_eq!(settings, expected);
 }
 

@@ -114,6 +114,18 @@ fn every_body_survives_being_written_and_read() {
         bending: Some(1e-3),
         ..Cloth::default()
     }));
+    bodies.push(Body::Cloth(Cloth {
+        surface: Surface::Grid { columns: 2, rows: 3, width: 0.3, depth: 0.7 },
+        masses: vec![0.1, 0.2, 0.3, 0.4, 0.5, 0.6],
+        bending_stiffness: Some(1e-5),
+        compliance: Some(1e-4),
+        shear_compliance: Some(1e-3),
+        strain_limit: Some(0.05),
+        drag: Some(1.2),
+        lift: Some(0.5),
+        seams: vec![[0, 5]],
+        ..Cloth::default()
+    }));
     bodies.push(Body::Rope(Rope { path: Thread::Points(vec![[0.0; 3], [1.0; 3]]), ..Rope::default() }));
     let scene = Scene { bodies, ..Scene::default() };
     assert_eq!(scene.problems(), []);
@@ -228,6 +240,23 @@ fn problems_carry_the_path_of_their_field() {
             "[{cloth: {pins: [400]}}]",
             "bodies[0].cloth.pins[0]: 400 is the index of no particle: there are 400",
         ),
+        ("[{cloth: {density: -1}}]", "bodies[0].cloth.density: -1 is not a finite number above 0"),
+        ("[{cloth: {masses: [1, 2]}}]", "bodies[0].cloth.masses: 2 masses are not one for each of 400"),
+        (
+            "[{cloth: {bending: 1, bending_stiffness: 1}}]",
+            "bodies[0].cloth.bending_stiffness: there is bending",
+        ),
+        ("[{cloth: {shear_compliance: 1}}]", "bodies[0].cloth.shear_compliance: it is of no use"),
+        ("[{cloth: {strain_limit: -0.1}}]", "bodies[0].cloth.strain_limit: -0.1 is not a number from 0"),
+        ("[{cloth: {drag: -1}}]", "bodies[0].cloth.drag: -1 is not"),
+        ("[{cloth: {pressure: NaN}}]", "bodies[0].cloth.pressure: NaN is not"),
+        ("[{cloth: {seams: [[0, 400]]}}]", "bodies[0].cloth.seams[0][1]: 400 is the index of no particle"),
+        ("[{cloth: {seams: [[7, 7]]}}]", "bodies[0].cloth.seams[0]: it sews a particle to itself"),
+        (
+            "[{rope: {bending: 1, bending_stiffness: 1}}]",
+            "bodies[0].rope.bending_stiffness: there is bending",
+        ),
+        ("[{rope: {compliance: -1}}]", "bodies[0].rope.compliance: -1 is not a number from 0 to 1e12"),
         ("[{rope: {path: {points: [[0, 0, 0]]}}}]", "bodies[0].rope.path.points: 1 points make no rope"),
         ("[{rope: {path: {points: [[0, 0, 0], [0, 0, 0]]}}}]", "bodies[0].rope.path.points[1]: "),
         ("[{half_space: {normal: [0, 0, 0]}}]", "bodies[0].half_space.normal: "),
@@ -248,6 +277,7 @@ fn problems_carry_the_path_of_their_field() {
 fn all_problems_are_found_in_the_order_of_the_document() {
     let text = r#"{"tautline": 1, "name": "../x", "seconds": 0, "dt": -1, "record_every": 0,
         "settings": {"gravity": [0, 1e9, 0], "substeps": 0, "sweeps": 0, "tolerance": 1, "damping": -1,
+            "wind": [0, 1e9, 0], "air_density": -1,
             "sleep": {"after": {"speed": 0, "seconds": -1}}},
         "bodies": [{"cloth": {"mass": 0, "friction": -1}}],
         "camera": {"eye": [0, 0, 0], "target": [0, 0, 0], "fov": 180}, "bounds": {"min": [0, 0, 0], "max": [0, 1, 1]}}"#;
@@ -262,6 +292,8 @@ fn all_problems_are_found_in_the_order_of_the_document() {
         "settings.sweeps",
         "settings.tolerance",
         "settings.damping",
+        "settings.wind[1]",
+        "settings.air_density",
         "settings.sleep.after.speed",
         "settings.sleep.after.seconds",
         "bodies[0].cloth.mass",
@@ -271,6 +303,20 @@ fn all_problems_are_found_in_the_order_of_the_document() {
         "bounds.max[0]",
     ];
     assert_eq!(paths, expected);
+}
+
+#[test]
+fn what_only_small_steps_know_is_refused_for_the_paper() {
+    let text =
+        "{tautline: 1, settings: {solver: 'paper'}, bodies: [{cloth: {bending_stiffness: 1, compliance: 1,
+        shear_compliance: 1, strain_limit: 1, drag: 1, lift: 1, pressure: 1, seams: [[0, 1]], density: 1}},
+        {rope: {bending_stiffness: 1, compliance: 1}}]}";
+    let problems = parse(text, Format::Json5).unwrap().problems();
+    let fields: Vec<&str> = problems.iter().filter_map(|problem| problem.path.rsplit('.').next()).collect();
+    let of_both = ["bending_stiffness", "compliance"];
+    let of_cloth = ["shear_compliance", "strain_limit", "drag", "lift", "pressure", "seams"];
+    assert_eq!(fields, [&of_both[..], &of_cloth, &of_both].concat());
+    assert!(problems.iter().all(|problem| problem.message.contains("only the solver \"default\"")));
 }
 
 #[test]

@@ -7,10 +7,11 @@ use tautline::mesh::TriMesh;
 use tautline::{BodyHandle, Error, Quat, Vec3, World};
 
 use super::attachment::{anchor, strength};
+use super::cloth::sheet;
 use super::cue::Cue;
 use super::joint::joint;
 use super::rigid::{rigid_body, surface, truss_body};
-use super::shape::{Make, Solids, triangles, unread};
+use super::shape::{Make, Solids};
 use super::soft::soft_solid;
 use super::wall;
 use super::{Look, Part};
@@ -96,30 +97,7 @@ impl Builder {
     }
 
     fn add_cloth(&mut self, name: String, cloth: &Cloth) -> Result<(), Refusal> {
-        let builder = match cloth.surface {
-            Surface::Grid { columns, rows, width, depth } => {
-                tautline::Cloth::grid(columns, rows, width, depth)
-            }
-            Surface::Mesh(ref mesh) => tautline::Cloth::from_mesh(triangles(mesh)),
-            Surface::File(_) => return Err(Refusal { field: ".surface", error: unread() }),
-        };
-        let mut builder = builder
-            .position(cloth.position.into())
-            .rotation(quaternion(cloth.rotation))
-            .velocity(cloth.velocity.into())
-            .mass(cloth.mass)
-            .friction(cloth.friction)
-            .self_collision(cloth.self_collision);
-        if let Some(thickness) = cloth.thickness {
-            builder = builder.thickness(thickness);
-        }
-        if let Some(compliance) = cloth.bending {
-            builder = builder.bending(compliance);
-        }
-        for pin in &cloth.pins {
-            builder = sheet_particles(*pin, &cloth.surface).into_iter().fold(builder, tautline::Cloth::pin);
-        }
-        let body = self.world.add(builder)?;
+        let body = self.world.add(sheet(cloth)?)?;
         for weight in &cloth.weights {
             self.weigh(body, sheet_particles(weight.at, &cloth.surface), weight.mass)?;
         }
@@ -150,6 +128,12 @@ impl Builder {
         }
         if let Some(compliance) = rope.bending {
             builder = builder.bending(compliance);
+        }
+        if let Some(stiffness) = rope.bending_stiffness {
+            builder = builder.bending_stiffness(stiffness);
+        }
+        if let Some(compliance) = rope.compliance {
+            builder = builder.compliance(compliance);
         }
         if let Some(degrees) = rope.least_angle_degrees {
             builder = builder.bend_limit(degrees.to_radians().min(PI));

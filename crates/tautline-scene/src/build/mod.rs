@@ -2,6 +2,7 @@
 
 mod attachment;
 mod body;
+mod cloth;
 mod cue;
 mod joint;
 mod rigid;

@@ -18,6 +18,8 @@ pub(super) fn of(document: &Settings) -> tautline::Settings {
     replace(&mut relaxation.ordering, document.ordering.map(ordering));
     replace(&mut relaxation.square_root, document.square_root.map(square_root));
     replace(&mut settings.damping, document.damping);
+    replace(&mut settings.wind, document.wind.map(Into::into));
+    replace(&mut settings.air_density, document.air_density);
     replace(&mut settings.broad_phase, document.broad_phase.map(broad_phase));
     replace(&mut settings.sleep, document.sleep.map(sleep));
     settings

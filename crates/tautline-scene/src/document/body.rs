@@ -3,10 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::cloth::Cloth;
 use super::rigid::Rigid;
-use super::shape::{Surface, Thread};
+use super::shape::Thread;
 use super::soft::SoftSolid;
-use super::value::{Color, Pin, RopeEnd, Rotation, SheetPlace, Weight};
+use super::value::{Color, Pin, RopeEnd, Weight};
 
 /// One thing in the scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -24,65 +25,6 @@ pub enum Body {
     HalfSpace(HalfSpace),
     /// The inside of an unmoving box.
     Room(Room),
-}
-
-/// A sheet. A grid lies in the plane y = 0 of its own frame, around the origin.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct Cloth {
-    /// A name of its own, if any.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub name: Option<String>,
-    /// Its rest shape, in its own frame.
-    pub surface: Surface,
-    /// Where its frame is, in m.
-    pub position: [f32; 3],
-    /// How its frame is turned.
-    pub rotation: Rotation,
-    /// Velocity, in m/s.
-    pub velocity: [f32; 3],
-    /// Mass of the whole sheet, in kg.
-    pub mass: f32,
-    /// Particles that never move: vertex indices, or places of a grid.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub pins: Vec<Pin<SheetPlace>>,
-    /// Particles with a mass of their own.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub weights: Vec<Weight<SheetPlace>>,
-    /// Coefficient of friction, 0 being none.
-    pub friction: f32,
-    /// Whether it collides with itself.
-    pub self_collision: bool,
-    /// How far from solids it is kept, in m; chosen by the distance of its particles if absent.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub thickness: Option<f32>,
-    /// Compliance of its resistance to bending, in rad²/J, 0 being rigid; none if absent.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub bending: Option<f32>,
-    /// Colour; chosen by its place in the scene if absent.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub color: Option<Color>,
-}
-
-impl Default for Cloth {
-    /// 20 × 20 particles over 1 m × 1 m, 1 kg.
-    fn default() -> Self {
-        Self {
-            name: None,
-            surface: Surface::default(),
-            position: [0.0; 3],
-            rotation: Rotation::default(),
-            velocity: [0.0; 3],
-            mass: 1.0,
-            pins: Vec::new(),
-            weights: Vec::new(),
-            friction: 0.5,
-            self_collision: true,
-            thickness: None,
-            bending: None,
-            color: None,
-        }
-    }
 }
 
 /// A rope.
@@ -116,6 +58,13 @@ pub struct Rope {
     /// Compliance of its resistance to bending, in rad²/J, 0 being rigid; none if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bending: Option<f32>,
+    /// Resistance to bending E I, in N·m², the moment being E I times the curvature; none if absent. Only for the solver
+    /// `default`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bending_stiffness: Option<f32>,
+    /// How far it gives when it is pulled, in 1/N: strain per force; not at all if absent. Only for the solver `default`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub compliance: Option<f32>,
     /// The sharpest angle it folds to at a particle, in degrees, 180 being straight; any if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub least_angle_degrees: Option<f32>,
@@ -139,6 +88,8 @@ impl Default for Rope {
             friction: 0.5,
             self_collision: false,
             bending: None,
+            bending_stiffness: None,
+            compliance: None,
             least_angle_degrees: None,
             color: None,
         }

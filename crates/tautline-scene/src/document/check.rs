@@ -59,6 +59,18 @@ pub(super) const POISSON_RATIO: Rule =
 /// A compliance, or the strength of a motor.
 pub(super) const UP_TO_HUGE: Rule =
     Rule { holds: |x| (0.0..=1e20).contains(&x), expected: "a number from 0 to 1e20" };
+/// A coefficient of the air's, or its density.
+pub(super) const COEFFICIENT: Rule =
+    Rule { holds: |x| (0.0..=1e6).contains(&x), expected: "a number from 0 to 1000000" };
+/// What fabric gives per force, or the pressure in it.
+pub(super) const UP_TO_LARGE: Rule =
+    Rule { holds: |x| (0.0..=1e12).contains(&x), expected: "a number from 0 to 1e12" };
+/// A resistance to bending.
+pub(super) const STIFFNESS: Rule =
+    Rule { holds: |x| (1e-20..=1e12).contains(&x), expected: "a number from 1e-20 to 1e12" };
+/// A share of its length that something stretches by.
+pub(super) const STRAIN: Rule =
+    Rule { holds: |x| (0.0..=1e3).contains(&x), expected: "a number from 0 to 1000" };
 /// A turn to either side, in degrees.
 pub(super) const HALF_TURN: Rule =
     Rule { holds: |x| x.abs() <= 180.0, expected: "a number of degrees from -180 to 180" };

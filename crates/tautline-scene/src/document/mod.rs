@@ -7,6 +7,7 @@
 mod attachment;
 mod body;
 mod check;
+mod cloth;
 mod cue;
 mod joint;
 pub mod limits;
@@ -24,7 +25,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 
 pub use attachment::{Anchor, AnchorPlace, Attachment};
-pub use body::{Body, Cloth, HalfSpace, Room, Rope};
+pub use body::{Body, HalfSpace, Room, Rope};
+pub use cloth::Cloth;
 pub use cue::Cue;
 pub use joint::{Joint, JointKind, Motor, Spring};
 pub use parse::{Format, parse};

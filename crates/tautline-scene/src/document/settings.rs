@@ -35,6 +35,12 @@ pub struct Settings {
     /// Rate at which free motion dies out, in 1/s, 0 being none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damping: Option<f32>,
+    /// Velocity of the air, in m/s, which acts on cloth with drag or lift; still if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wind: Option<[f32; 3]>,
+    /// Density of the air, in kg/m³, 0 being none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub air_density: Option<f32>,
     /// How pairs of bodies that may touch are found.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub broad_phase: Option<BroadPhase>,
@@ -56,6 +62,8 @@ impl Default for Settings {
             ordering: None,
             square_root: None,
             damping: None,
+            wind: None,
+            air_density: None,
             broad_phase: None,
             sleep: None,
         }
@@ -67,9 +75,20 @@ impl Settings {
     /// document were chosen for the one before.
     pub fn use_solver(&mut self, solver: Solver) {
         if self.solver != solver {
-            let Self { gravity, ordering, square_root, damping, broad_phase, sleep, .. } = *self;
-            let kept =
-                Self { gravity, ordering, square_root, damping, broad_phase, sleep, ..Self::default() };
+            let Self {
+                gravity, ordering, square_root, damping, wind, air_density, broad_phase, sleep, ..
+            } = *self;
+            let kept = Self {
+                gravity,
+                ordering,
+                square_root,
+                damping,
+                wind,
+                air_density,
+                broad_phase,
+                sleep,
+                ..Self::default()
+            };
             *self = Self { solver, ..kept };
         }
     }

@@ -1,6 +1,7 @@
 //! Judges a document: every value that is wrong, with its path.
 
 mod attachment;
+mod cloth;
 mod cue;
 mod joint;
 mod rigid;
@@ -11,19 +12,19 @@ use std::collections::BTreeMap;
 use std::fmt::Display;
 
 use super::check::{
-    ANGLE, COORDINATE, Checker, FINITE, LENGTH, MASS, NOT_NEGATIVE, OPENING, POSITIVE, RATE, SHARE, STEP,
-    THICKNESS, TOLERANCE,
+    ANGLE, COEFFICIENT, COORDINATE, Checker, FINITE, LENGTH, MASS, NOT_NEGATIVE, OPENING, POSITIVE, RATE,
+    SHARE, STEP, STIFFNESS, THICKNESS, TOLERANCE, UP_TO_LARGE,
 };
 use super::{
-    AxisAngle, Body, Bounds, Camera, Cloth, HalfSpace, Pin, Room, Rope, Rotation, Scene, Settings,
-    SheetPlace, Sleep, Surface, Thread, VERSION, limits,
+    AxisAngle, Body, Bounds, Camera, HalfSpace, Pin, Room, Rope, Rotation, Scene, Settings, Sleep, Thread,
+    VERSION, limits,
 };
 use crate::error::{Error, Problem};
 use attachment::check_attachments;
+use cloth::check_cloth;
 use cue::check_cues;
 use joint::check_joints;
 use rigid::check_rigid;
-use shape::check_surface;
 use soft::check_soft_solid;
 
 /// What is said of a field that a truss does not know.
@@ -95,6 +96,8 @@ fn check_settings(c: &mut Checker, settings: &Settings) {
     c.optional("separation_speed", settings.separation_speed, POSITIVE);
     c.optional("tolerance", settings.tolerance, TOLERANCE);
     c.optional("damping", settings.damping, RATE);
+    c.vector("wind", settings.wind.as_ref().map_or(&[], |wind| wind.as_slice()), COORDINATE);
+    c.optional("air_density", settings.air_density, COEFFICIENT);
     if let Some(Sleep::After { speed, seconds }) = settings.sleep {
         c.within("sleep.after", |c| {
             c.number("speed", speed, POSITIVE);
@@ -131,8 +134,8 @@ fn check_total(c: &mut Checker, what: &str, counts: impl Iterator<Item = u64>, m
 fn check_body(c: &mut Checker, body: &Body, has_trusses: bool) {
     match body {
         Body::Rigid(rigid) => check_rigid(c, rigid, has_trusses),
-        Body::Cloth(cloth) => check_cloth(c, cloth),
-        Body::Rope(rope) => check_rope(c, rope),
+        Body::Cloth(cloth) => check_cloth(c, cloth, has_trusses),
+        Body::Rope(rope) => check_rope(c, rope, has_trusses),
         Body::SoftSolid(solid) => check_soft_solid(c, solid, has_trusses),
         Body::HalfSpace(HalfSpace { normal, offset, friction, restitution, rolling_friction, .. }) => {
             c.direction("normal", normal);
@@ -158,38 +161,7 @@ fn check_surface_of_rigid(c: &mut Checker, restitution: Option<f32>, rolling: Op
     }
 }
 
-fn check_cloth(c: &mut Checker, cloth: &Cloth) {
-    c.within("surface", |c| check_surface(c, &cloth.surface));
-    c.vector("position", &cloth.position, COORDINATE);
-    check_rotation(c, &cloth.rotation);
-    c.vector("velocity", &cloth.velocity, COORDINATE);
-    c.number("mass", cloth.mass, MASS);
-    let is_grid = matches!(cloth.surface, Surface::Grid { .. });
-    let count = match cloth.surface {
-        Surface::File(_) => u64::MAX,
-        _ => cloth.surface.vertex_count(),
-    };
-    let check_place = |c: &mut Checker, field: &str, pin: &Pin<SheetPlace>| {
-        check_pin(c, field, pin, count);
-        if let Pin::Place(place) = pin {
-            c.require(is_grid, field, || {
-                format!("{} is a place of a grid, and this surface is none: use indices", place_name(place))
-            });
-        }
-    };
-    for (k, pin) in cloth.pins.iter().enumerate() {
-        check_place(c, &format!("pins[{k}]"), pin);
-    }
-    for (k, weight) in cloth.weights.iter().enumerate() {
-        check_place(c, &format!("weights[{k}].at"), &weight.at);
-        c.number(format_args!("weights[{k}].mass"), weight.mass, MASS);
-    }
-    c.number("friction", cloth.friction, NOT_NEGATIVE);
-    c.optional("thickness", cloth.thickness, THICKNESS);
-    c.optional("bending", cloth.bending, NOT_NEGATIVE);
-}
-
-fn check_rope(c: &mut Checker, rope: &Rope) {
+fn check_rope(c: &mut Checker, rope: &Rope, has_trusses: bool) {
     match &rope.path {
         Thread::Line { from, to, segments } => c.within("path.line", |c| {
             c.vector("from", from, COORDINATE);
@@ -224,7 +196,26 @@ fn check_rope(c: &mut Checker, rope: &Rope) {
     }
     c.number("friction", rope.friction, NOT_NEGATIVE);
     c.optional("bending", rope.bending, NOT_NEGATIVE);
+    check_bending_stiffness(c, rope.bending_stiffness, rope.bending);
+    c.optional("compliance", rope.compliance, UP_TO_LARGE);
+    let fields =
+        [("bending_stiffness", rope.bending_stiffness.is_some()), ("compliance", rope.compliance.is_some())];
+    check_beyond_paper(c, &fields, has_trusses);
     c.optional("least_angle_degrees", rope.least_angle_degrees, ANGLE);
+}
+
+fn check_bending_stiffness(c: &mut Checker, stiffness: Option<f32>, compliance: Option<f32>) {
+    c.optional("bending_stiffness", stiffness, STIFFNESS);
+    c.require(stiffness.is_none() || compliance.is_none(), "bending_stiffness", || {
+        "there is bending already: give one of the two".to_owned()
+    });
+}
+
+/// Refuses fields that are given and that the solver of trusses does not know.
+fn check_beyond_paper(c: &mut Checker, fields: &[(&str, bool)], has_trusses: bool) {
+    for (field, is_given) in fields {
+        c.require(!(has_trusses && *is_given), field, || NOT_OF_TRUSSES.to_owned());
+    }
 }
 
 fn check_network(c: &mut Checker, points: &[[f32; 3]], segments: &[[u32; 2]]) {
@@ -247,10 +238,6 @@ fn check_pin<Place>(c: &mut Checker, field: impl Display, pin: &Pin<Place>, coun
             format!("{index} is the index of no particle: there are {count}")
         });
     }
-}
-
-fn place_name(place: &SheetPlace) -> String {
-    serde_json::to_string(place).unwrap_or_default()
 }
 
 fn check_rotation(c: &mut Checker, rotation: &Rotation) {
