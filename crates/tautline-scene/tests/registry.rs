@@ -20,7 +20,19 @@ fn with(name: &str, assignments: &[&str]) -> Scene {
 }
 
 /// The scenes with what the paper does not have.
-const NOT_FOR_PAPER: [&str; 5] = ["bullets", "mixed-pile", "chain", "ragdoll", "jelly"];
+const NOT_FOR_PAPER: [&str; 11] = [
+    "bullets",
+    "mixed-pile",
+    "chain",
+    "ragdoll",
+    "jelly",
+    "tablecloth",
+    "curtains",
+    "bridge",
+    "marbles",
+    "trampoline",
+    "knot",
+];
 
 /// A scene's document for each solver that it is for.
 fn documents(scene: &NamedScene) -> Vec<Scene> {

@@ -50,7 +50,7 @@ fn bridge(p: &Parameters) -> Scene {
         }
     }
     bodies.extend(loads(p.count("load") as f32).into_iter().map(Body::Rigid));
-    let camera = Some(Camera { eye: [1.6, 3.1, 7.0], target: [-0.05, 1.3, 0.0], fov: 40.0 });
+    let camera = Some(Camera { eye: [1.6, 3.1, 7.0], target: [-0.05, 1.3, 0.0], fov: 42.0 });
     Scene { seconds: 6.0, record_every: 2, bodies, attachments, camera, ..Scene::default() }
 }
 

@@ -36,7 +36,7 @@ fn garments(p: &Parameters) -> Scene {
             ..Cloth::default()
         }));
     }
-    let camera = Some(Camera { eye: [1.4, 1.6, 2.7], target: [0.0, 0.35, 0.0], fov: 42.0 });
+    let camera = Some(Camera { eye: [1.1, 1.4, 2.2], target: [0.0, 0.4, 0.0], fov: 42.0 });
     Scene { seconds: 5.0, record_every: 2, bodies, camera, ..Scene::default() }
 }
 

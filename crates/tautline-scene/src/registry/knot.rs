@@ -64,7 +64,7 @@ fn knot(p: &Parameters) -> Scene {
             angular_velocity: [0.0; 3],
         }));
     }
-    let camera = Some(Camera { eye: [0.4, 1.6, 3.0], target: [0.0, 0.9, 0.0], fov: 40.0 });
+    let camera = Some(Camera { eye: [0.3, 1.5, 3.9], target: [0.0, 0.95, 0.0], fov: 40.0 });
     Scene { seconds: 4.0, record_every: 2, bodies, attachments, cues, camera, ..Scene::default() }
 }
 

@@ -44,7 +44,7 @@ fn tablecloth(p: &Parameters) -> Scene {
         surface: Surface::Grid { columns, rows, width: LONG, depth: SHORT },
         position: [EDGE - LONG / 2.0, level, 0.0],
         mass: 0.3,
-        friction: 0.05,
+        friction: 0.01,
         thickness: Some(THICKNESS),
         color: Some(Color([176, 44, 52])),
         ..Cloth::default()
@@ -69,19 +69,19 @@ fn tablecloth(p: &Parameters) -> Scene {
     ];
     bodies.extend(crockery().into_iter().map(Body::Rigid));
     let speed = p.count("speed") as f32;
-    let cue = |at: f32, speed: f32| Cue {
-        at,
+    let pull = Cue {
+        at: PULLED,
         body: BodyRef::Name("bar".to_owned()),
         velocity: [speed, 0.0, 0.0],
         angular_velocity: [0.0; 3],
     };
     Scene {
-        seconds: 4.0,
+        seconds: 3.0,
         record_every: 2,
         bodies,
         attachments: (0..rows).map(held).collect(),
-        cues: vec![cue(PULLED, speed), cue(PULLED + 1.2 * LONG / speed, 0.0)],
-        camera: Some(Camera { eye: [1.5, 1.9, 3.2], target: [0.75, 0.55, 0.0], fov: 38.0 }),
+        cues: vec![pull],
+        camera: Some(Camera { eye: [1.2, 1.8, 2.8], target: [0.3, 0.6, 0.0], fov: 38.0 }),
         ..Scene::default()
     }
 }
@@ -124,7 +124,7 @@ fn crockery() -> Vec<Rigid> {
     };
     let round = |[radius, height]: [f32; 2]| Shape::Cylinder { radius, height, segments: Some(12) };
     let mut pieces = Vec::new();
-    for [x, z] in [[-0.4, -0.25], [0.4, -0.25], [-0.4, 0.25], [0.4, 0.25]] {
+    for [x, z] in [[-0.5, -0.25], [0.3, -0.25], [-0.5, 0.25], [0.3, 0.25]] {
         let on_plate = floor + PLATE[1] + CUP[1] / 2.0;
         pieces.push(piece(Shape::Box { size: PLATE }, [x, floor + PLATE[1] / 2.0, z], 0.5, WHITE));
         pieces.push(piece(round(CUP), [x, on_plate, z], 0.25, Color([70, 116, 176])));
@@ -132,11 +132,11 @@ fn crockery() -> Vec<Rigid> {
         pieces.push(piece(round(GLASS), beside, 0.2, Color([168, 208, 214])));
     }
     let dish = Shape::Box { size: [0.3, 0.06, 0.16] };
-    pieces.push(piece(dish, [-0.12, floor + 0.03, 0.0], 0.9, Color([222, 176, 74])));
+    pieces.push(piece(dish, [-0.2, floor + 0.03, 0.0], 0.9, Color([222, 176, 74])));
     let bottle = vec![part_of_bottle(0.05, 0.18, 0.0), part_of_bottle(0.018, 0.08, 0.13)];
     pieces.push(Rigid {
         shape: Shape::Compound { parts: bottle },
-        position: [0.14, floor + 0.09, 0.0],
+        position: [0.06, floor + 0.09, 0.0],
         mass: Some(1.0),
         friction: 0.4,
         color: Some(Color([44, 96, 62])),
