@@ -6,8 +6,8 @@ use crate::output;
 
 const HEADER: [&str; 6] = ["case", "measured", "expected", "error", "demand", ""];
 
-/// A row for each case, by group, with the part that does worst; below it all parts (`in_full`) or those that fail.
-/// A last line counts.
+/// A row for each case, by group, with the part that does worst; below it all parts (`in_full`) or those that fail, and
+/// then what there is to know about the case. A last line counts.
 pub(super) fn table(outcomes: &[Outcome], in_full: bool) -> String {
     let mut groups: Vec<&str> = Vec::new();
     for outcome in outcomes {
@@ -15,13 +15,16 @@ pub(super) fn table(outcomes: &[Outcome], in_full: bool) -> String {
             groups.push(outcome.group);
         }
     }
-    let (mut rows, mut headings) = (Vec::new(), Vec::new());
+    let (mut rows, mut headings, mut notes) = (Vec::new(), Vec::new(), Vec::new());
     for group in groups {
         headings.push((rows.len(), group));
         for outcome in outcomes.iter().filter(|outcome| outcome.group == group) {
             rows.push(summary(outcome));
             let told = outcome.parts.iter().filter(|part| in_full || !part.pass);
             rows.extend(told.map(part_row));
+            if in_full || !outcome.pass {
+                notes.push((rows.len(), outcome.note));
+            }
         }
     }
     let lines = output::table(&HEADER, &rows);
@@ -32,9 +35,29 @@ pub(super) fn table(outcomes: &[Outcome], in_full: bool) -> String {
             text += &format!("\n{group}\n");
         }
         text += &format!("{line}\n");
+        if let Some((_, note)) = notes.iter().find(|(row, _)| *row == index) {
+            text += &paragraph(note);
+        }
     }
     let passed = outcomes.iter().filter(|outcome| outcome.pass).count();
     text + &format!("\n{passed} of {} cases pass\n", outcomes.len())
+}
+
+/// Indented lines of at most so many characters; none if there is no text.
+fn paragraph(text: &str) -> String {
+    const INDENT: &str = "        ";
+    const LONGEST: usize = 100;
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= LONGEST => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(format!("{INDENT}{word}")),
+        }
+    }
+    lines.into_iter().map(|line| line + "\n").collect()
 }
 
 fn summary(outcome: &Outcome) -> Vec<String> {
@@ -84,6 +107,18 @@ fn number(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn notes_are_broken_between_words() {
+        assert_eq!(paragraph(""), "");
+        let text = "a word ".repeat(40);
+        let lines = paragraph(&text);
+        assert!(
+            lines.lines().count() > 2 && lines.lines().all(|line| line.chars().count() <= 100),
+            "{lines}"
+        );
+        assert_eq!(lines.split_whitespace().count(), 80);
+    }
 
     #[test]
     fn numbers_are_short() {
