@@ -40,7 +40,7 @@ impl Cloth {
     ///     world.step(1.0 / 60.0)?;
     /// }
     /// let speed = world.body(sail)?.velocity().y;
-    /// assert!(speed > 4.0 && speed < 5.0, "the wind takes it along");
+    /// assert!(speed > 3.5 && speed < 5.0, "the wind takes it along");
     /// # Ok::<(), tautline::Error>(())
     /// ```
     pub fn drag(mut self, coefficient: f32) -> Self {
@@ -119,11 +119,11 @@ impl Cloth {
     /// do not tear.
     ///
     /// ```
-    /// use tautline::{Cloth, Corner, Settings, World};
+    /// use tautline::{Cloth, Settings, World};
     ///
     /// let mut world = World::new(Settings::default())?;
     /// let paper = Cloth::grid(6, 6, 0.2, 0.2).mass(0.5).compliance(1e-3).tear_at(0.01);
-    /// let paper = world.add(paper.pin_corner(Corner::First).pin_corner(Corner::RowEnd))?;
+    /// let paper = world.add(paper.pin(0).pin(5))?;
     /// for _ in 0..60 {
     ///     world.step(1.0 / 60.0)?;
     /// }
