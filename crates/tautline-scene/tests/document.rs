@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 use proptest::prelude::*;
 use tautline_scene::Error;
 use tautline_scene::document::{
-    Body, Bounds, Camera, Cloth, Color, Format, Pin, Rigid, Rope, RopeEnd, Rotation, Scene, Settings, Shape,
-    SheetPlace, Sleep, Solver, Surface, Thread, json_schema, parse,
+    Body, Bounds, Camera, Cloth, Color, Creep, Format, Pin, Rigid, Rope, RopeEnd, Rotation, Scene, Settings,
+    Shape, SheetPlace, Sleep, Solver, Surface, Thread, json_schema, parse,
 };
 
 fn json(text: &str) -> Scene {
@@ -121,6 +121,8 @@ fn every_body_survives_being_written_and_read() {
         compliance: Some(1e-4),
         shear_compliance: Some(1e-3),
         strain_limit: Some(0.05),
+        tear_at: Some(0.04),
+        creep: Some(Creep { yield_strain: 0.01, rate: 0.5 }),
         drag: Some(1.2),
         lift: Some(0.5),
         seams: vec![[0, 5]],
@@ -248,6 +250,20 @@ fn problems_carry_the_path_of_their_field() {
         ),
         ("[{cloth: {shear_compliance: 1}}]", "bodies[0].cloth.shear_compliance: it is of no use"),
         ("[{cloth: {strain_limit: -0.1}}]", "bodies[0].cloth.strain_limit: -0.1 is not a number from 0"),
+        ("[{cloth: {tear_at: 0.1}}]", "bodies[0].cloth.tear_at: it is of no use without a compliance"),
+        ("[{cloth: {compliance: 1, tear_at: 0}}]", "bodies[0].cloth.tear_at: 0 is not a number from 1e-6"),
+        (
+            "[{cloth: {compliance: 1, tear_at: 0.1, strain_limit: 0.1}}]",
+            "bodies[0].cloth.tear_at: it is never reached",
+        ),
+        (
+            "[{cloth: {compliance: 1, creep: {yield_strain: -1, rate: 1}}}]",
+            "bodies[0].cloth.creep.yield_strain: -1 is not",
+        ),
+        (
+            "[{cloth: {compliance: 1, creep: {yield_strain: 0, rate: -1}}}]",
+            "bodies[0].cloth.creep.rate: -1 is not a number from 0",
+        ),
         ("[{cloth: {drag: -1}}]", "bodies[0].cloth.drag: -1 is not"),
         ("[{cloth: {pressure: NaN}}]", "bodies[0].cloth.pressure: NaN is not"),
         ("[{cloth: {seams: [[0, 400]]}}]", "bodies[0].cloth.seams[0][1]: 400 is the index of no particle"),
@@ -309,12 +325,13 @@ fn all_problems_are_found_in_the_order_of_the_document() {
 fn what_only_small_steps_know_is_refused_for_the_paper() {
     let text =
         "{tautline: 1, settings: {solver: 'paper'}, bodies: [{cloth: {bending_stiffness: 1, compliance: 1,
-        shear_compliance: 1, strain_limit: 1, drag: 1, lift: 1, pressure: 1, seams: [[0, 1]], density: 1}},
+        shear_compliance: 1, strain_limit: 1, tear_at: 0.5, creep: {yield_strain: 0, rate: 1}, drag: 1, lift: 1, pressure: 1, seams: [[0, 1]], density: 1}},
         {rope: {bending_stiffness: 1, compliance: 1}}]}";
     let problems = parse(text, Format::Json5).unwrap().problems();
     let fields: Vec<&str> = problems.iter().filter_map(|problem| problem.path.rsplit('.').next()).collect();
     let of_both = ["bending_stiffness", "compliance"];
-    let of_cloth = ["shear_compliance", "strain_limit", "drag", "lift", "pressure", "seams"];
+    let of_cloth =
+        ["shear_compliance", "strain_limit", "tear_at", "creep", "drag", "lift", "pressure", "seams"];
     assert_eq!(fields, [&of_both[..], &of_cloth, &of_both].concat());
     assert!(problems.iter().all(|problem| problem.message.contains("only the solver \"default\"")));
 }

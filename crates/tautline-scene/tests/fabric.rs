@@ -37,7 +37,7 @@ type Change<T> = (&'static str, fn(T) -> T);
 
 #[test]
 fn every_field_of_a_cloth_is_the_engines() {
-    let changes: [Change<Cloth>; 10] = [
+    let changes: [Change<Cloth>; 12] = [
         ("density: 0.4", |cloth| cloth.density(0.4)),
         ("masses: [1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16]", |cloth| {
             cloth.masses((1..=16u8).map(f32::from).collect())
@@ -46,6 +46,10 @@ fn every_field_of_a_cloth_is_the_engines() {
         ("compliance: 0.01", |cloth| cloth.compliance(0.01)),
         ("compliance: 0.01, shear_compliance: 0.1", |cloth| cloth.compliance(0.01).shear_compliance(0.1)),
         ("strain_limit: 0.2", |cloth| cloth.strain_limit(0.2)),
+        ("compliance: 0.1, tear_at: 1e-3", |cloth| cloth.compliance(0.1).tear_at(1e-3)),
+        ("compliance: 0.1, creep: {yield_strain: 1e-4, rate: 50}", |cloth| {
+            cloth.compliance(0.1).creep(1e-4, 50.0)
+        }),
         ("drag: 1.2", |cloth| cloth.drag(1.2)),
         ("lift: 1.2", |cloth| cloth.lift(1.2)),
         ("drag: 1.2, lift: 1.2", |cloth| cloth.drag(1.2).lift(1.2)),

@@ -31,6 +31,39 @@ const ONE_OF_EACH: &str = "name: 'all', record_every: 3, bodies: [{rigid: {posit
     {rigid: {fixed: true, position: [3, 3, 0]}}, {cloth: {position: [0, 5, 0]}}, {rope: {pins: ['first']}},
     {half_space: {offset: -1}}]";
 
+fn area(positions: &[Vec3], triangles: &[[u32; 3]]) -> f32 {
+    let area = |corners: &[u32; 3]| {
+        let [a, b, c] = corners.map(|corner| positions[corner as usize]);
+        0.5 * (b - a).cross(c - a).length()
+    };
+    triangles.iter().map(area).sum()
+}
+
+/// It hangs by its back edge, too heavy for what it bears, and so falls off.
+#[test]
+fn what_tears_is_seen_no_more() {
+    let scene =
+        "bodies: [{cloth: {surface: {grid: {columns: 7, rows: 7, width: 0.6, depth: 0.6}}, pins: ['back'],
+        compliance: 1e-3, tear_at: 0.002}}]";
+    let outcome = run(scene, 1.0);
+    let recording = outcome.recording.unwrap();
+    recording.check().unwrap();
+    let mut world = build(scene).world;
+    let sheet = world.bodies().next().unwrap();
+    let whole = world.body(sheet).unwrap().triangles().len();
+    let track = &recording.tracks[0];
+    for frame in 0..recording.frame_count() {
+        let body = world.body(sheet).unwrap();
+        let expected = area(body.positions(), body.triangles());
+        let found = area(&track.positions_at(frame), &track.mesh.triangles);
+        assert!((found / expected - 1.0).abs() < 1e-4, "frame {frame}: {found} instead of {expected} m²");
+        world.step(1.0 / 60.0).unwrap();
+    }
+    assert!(world.body(sheet).unwrap().triangles().len() < whole && track.mesh.triangles.len() == whole);
+    let folder = tempfile::tempdir().unwrap();
+    tautline_scene::export::write_glb(&recording, &folder.path().join("torn.glb")).unwrap();
+}
+
 #[test]
 fn every_body_has_a_track_with_a_frame_for_every_third_step_and_the_first() {
     let recording = recording(ONE_OF_EACH, 1.0);

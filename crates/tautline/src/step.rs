@@ -65,6 +65,7 @@ impl World {
         self.rest_grabs(&lent);
         self.finish_rigid(h, &mut report);
         self.finish_soft(h, &mut report);
+        self.wear_cloth(dt);
         self.note_attachments(h);
         watch.lap(Phase::Integrate);
         self.rest(dt);
@@ -153,6 +154,19 @@ impl World {
             particles.inverse_mass[body.particles.clone()].fill(0.0);
             body.freeze();
             report.faults.push(Fault { body: slots.handle(index), particle });
+        }
+    }
+
+    /// Lets cloth creep and tear.
+    fn wear_cloth(&mut self, dt: f32) {
+        let Self { soft, bodies, particles, .. } = self;
+        for body in bodies.iter_mut().filter(|body| body.is_awake()) {
+            let positions = &particles.position[body.particles.clone()];
+            if let Substance::Deformable(deformable) = &mut body.substance
+                && deformable.wear(positions, dt)
+            {
+                soft.invalidate();
+            }
         }
     }
 

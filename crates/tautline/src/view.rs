@@ -86,7 +86,7 @@ impl<'a> BodyView<'a> {
     }
 
     /// The triangles of its surface over its [`BodyView::surface_positions`], counter-clockwise seen from outside;
-    /// empty for ropes and half-spaces.
+    /// empty for ropes and half-spaces. Cloth that [tears](crate::Cloth::tear_at) has fewer of them then, in their order.
     pub fn triangles(&self) -> &'a [[u32; 3]] {
         match &self.body.substance {
             Substance::Rigid(rigid) => rigid.shape.triangles(),

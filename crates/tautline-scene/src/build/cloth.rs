@@ -2,7 +2,7 @@
 
 use super::body::{Refusal, quaternion, sheet_particles};
 use super::shape::{triangles, unread};
-use crate::document::{Cloth, Surface};
+use crate::document::{Cloth, Creep, Surface};
 
 pub(super) fn sheet(cloth: &Cloth) -> Result<tautline::Cloth, Refusal> {
     let builder = match cloth.surface {
@@ -21,6 +21,9 @@ pub(super) fn sheet(cloth: &Cloth) -> Result<tautline::Cloth, Refusal> {
             builder = set(builder, value);
         }
     }
+    if let Some(Creep { yield_strain, rate }) = cloth.creep {
+        builder = builder.creep(yield_strain, rate);
+    }
     for pin in &cloth.pins {
         builder = sheet_particles(*pin, &cloth.surface).into_iter().fold(builder, tautline::Cloth::pin);
     }
@@ -38,7 +41,7 @@ fn weighed(builder: tautline::Cloth, cloth: &Cloth) -> tautline::Cloth {
 /// A value that a document may give, and what takes it.
 type Choice = (Option<f32>, fn(tautline::Cloth, f32) -> tautline::Cloth);
 
-fn choices(cloth: &Cloth) -> [Choice; 9] {
+fn choices(cloth: &Cloth) -> [Choice; 10] {
     [
         (cloth.thickness, tautline::Cloth::thickness),
         (cloth.bending, tautline::Cloth::bending),
@@ -46,6 +49,7 @@ fn choices(cloth: &Cloth) -> [Choice; 9] {
         (cloth.compliance, tautline::Cloth::compliance),
         (cloth.shear_compliance, tautline::Cloth::shear_compliance),
         (cloth.strain_limit, tautline::Cloth::strain_limit),
+        (cloth.tear_at, tautline::Cloth::tear_at),
         (cloth.drag, tautline::Cloth::drag),
         (cloth.lift, tautline::Cloth::lift),
         (cloth.pressure, tautline::Cloth::pressure),

@@ -71,6 +71,9 @@ pub(super) const STIFFNESS: Rule =
 /// A share of its length that something stretches by.
 pub(super) const STRAIN: Rule =
     Rule { holds: |x| (0.0..=1e3).contains(&x), expected: "a number from 0 to 1000" };
+/// A strain at which something happens.
+pub(super) const SOME_STRAIN: Rule =
+    Rule { holds: |x| (1e-6..=1e3).contains(&x), expected: "a number from 1e-6 to 1000" };
 /// A turn to either side, in degrees.
 pub(super) const HALF_TURN: Rule =
     Rule { holds: |x| x.abs() <= 180.0, expected: "a number of degrees from -180 to 180" };

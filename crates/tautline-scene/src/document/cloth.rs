@@ -60,6 +60,14 @@ pub struct Cloth {
     /// The share of its length at rest that it stretches by and no further: 0.05 is 5 %. Only for the solver `default`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub strain_limit: Option<f32>,
+    /// The share of its length beyond which an edge tears, with the triangles beside it: 0.2 is 20 %. It needs a
+    /// compliance, over which it is the strength in N/m; never if absent. Only for the solver `default`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tear_at: Option<f32>,
+    /// How it gets longer for good where it is stretched. It needs a compliance; not at all if absent. Only for the
+    /// solver `default`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub creep: Option<Creep>,
     /// Coefficient of the force with which the air drags at it, about 1.2 for a plate; no air if absent. Only for the
     /// solver `default`.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -102,6 +110,8 @@ impl Default for Cloth {
             compliance: None,
             shear_compliance: None,
             strain_limit: None,
+            tear_at: None,
+            creep: None,
             drag: None,
             lift: None,
             pressure: None,
@@ -109,4 +119,14 @@ impl Default for Cloth {
             color: None,
         }
     }
+}
+
+/// How a sheet gets longer for good.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Creep {
+    /// The strain that it bears without, as a share of its length.
+    pub yield_strain: f32,
+    /// Rate, in 1/s: of what an edge is too long by, e^(−rate t) is left after the time t.
+    pub rate: f32,
 }

@@ -26,7 +26,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 pub use attachment::{Anchor, AnchorPlace, Attachment};
 pub use body::{Body, HalfSpace, Room, Rope};
-pub use cloth::Cloth;
+pub use cloth::{Cloth, Creep};
 pub use cue::Cue;
 pub use joint::{Joint, JointKind, Motor, Spring};
 pub use parse::{Format, parse};

@@ -2,6 +2,7 @@
 
 mod recorder;
 mod summary;
+mod tears;
 mod tube;
 mod tubes;
 

@@ -3,6 +3,7 @@
 use tautline::mesh::TriMesh;
 use tautline::{BodyHandle, World};
 
+use super::tears::Tears;
 use super::tubes::Tubes;
 use crate::build::{BuiltScene, Look, Part};
 use crate::error::Error;
@@ -20,7 +21,7 @@ pub(super) struct Recorder {
 enum Source {
     Still,
     Rigid(BodyHandle),
-    Sheet(BodyHandle),
+    Sheet(BodyHandle, Tears),
     Rope(BodyHandle, Tubes),
 }
 
@@ -54,8 +55,10 @@ impl Recorder {
         for (track, source) in self.recording.tracks.iter_mut().zip(&mut self.sources) {
             match (source, &mut track.motion) {
                 (Source::Rigid(body), Motion::Rigid(poses)) => poses.extend(world.body(*body)?.pose()),
-                (Source::Sheet(body), Motion::Deforming(frames)) => {
-                    frames.push(world.body(*body)?.positions().to_vec());
+                (Source::Sheet(body, tears), Motion::Deforming(frames)) => {
+                    let sheet = world.body(*body)?;
+                    tears.note(sheet.triangles(), frames.len());
+                    frames.push(sheet.positions().to_vec());
                 }
                 (Source::Rope(body, tubes), Motion::Deforming(frames)) => {
                     frames.push(tubes.positions(world.body(*body)?.positions()));
@@ -66,7 +69,12 @@ impl Recorder {
         Ok(())
     }
 
-    pub(super) fn finish(self) -> Recording {
+    pub(super) fn finish(mut self) -> Recording {
+        for (track, source) in self.recording.tracks.iter_mut().zip(self.sources) {
+            if let Source::Sheet(_, tears) = source {
+                tears.apply(track);
+            }
+        }
         self.recording
     }
 }
@@ -90,7 +98,8 @@ fn track_of(part: &Part, world: &World) -> Result<(Track, Source), Error> {
         }
         Look::Sheet => {
             let mesh = TriMesh { positions: body.positions().to_vec(), triangles: body.triangles().to_vec() };
-            (Surface::Sheet, mesh, Motion::Deforming(Vec::new()), Source::Sheet(part.body))
+            let source = Source::Sheet(part.body, Tears::new(body.triangles()));
+            (Surface::Sheet, mesh, Motion::Deforming(Vec::new()), source)
         }
         Look::Tube { radius } => {
             let mut tubes = Tubes::new(*radius, body.sticks());

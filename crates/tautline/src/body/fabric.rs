@@ -14,6 +14,7 @@ pub(crate) struct Fabric {
     pub(crate) stretch: Option<Stretch>,
     /// Whether its hinges were given as stiffness, and not as compliances.
     pub(crate) bends_by_stiffness: bool,
+    pub(crate) wear: Wear,
     /// Particles that are drawn together, and how far apart they may be now (m).
     pub(crate) seams: Vec<Stick>,
 }
@@ -37,6 +38,35 @@ impl Stretch {
         let sound = |number: &f32| (0.0..f32::INFINITY).contains(number);
         let is_complete = |numbers: &Vec<f32>| numbers.len() == sticks && numbers.iter().all(sound);
         self.compliances.as_ref().is_none_or(is_complete) && self.limit.as_ref().is_none_or(sound)
+    }
+}
+
+/// What being stretched does to its sticks for good.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Wear {
+    /// The strain at which they tear.
+    pub(crate) tear_at: Option<f32>,
+    pub(crate) creep: Option<Creep>,
+}
+
+/// How sticks get longer that are strained too much.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Creep {
+    /// The strain that they bear without.
+    pub(crate) yield_strain: f32,
+    /// In 1/s.
+    pub(crate) rate: f32,
+}
+
+impl Wear {
+    pub(crate) fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
+
+    fn is_sound(&self) -> bool {
+        let sound = |number: f32| (0.0..f32::INFINITY).contains(&number);
+        self.tear_at.is_none_or(sound)
+            && self.creep.is_none_or(|creep| sound(creep.yield_strain) && sound(creep.rate))
     }
 }
 
@@ -86,6 +116,8 @@ impl Fabric {
             ("compliance", stretch.is_some_and(|stretch| stretch.compliances.is_some())),
             ("strain_limit", stretch.is_some()),
             ("seams", !self.seams.is_empty()),
+            ("tear_at", self.wear.tear_at.is_some()),
+            ("creep", self.wear.creep.is_some()),
         ];
         features.into_iter().find(|(_, is_there)| *is_there).map(|(name, _)| name)
     }
@@ -96,6 +128,7 @@ impl Fabric {
         self.air.is_none_or(|air| sound(air.drag) && sound(air.lift))
             && self.gas.is_none_or(|gas| sound(gas.pressure) && gas.volume > 0.0 && gas.volume.is_finite())
             && self.stretch.as_ref().is_none_or(|stretch| stretch.is_sound(sticks))
+            && self.wear.is_sound()
             && self.seams.iter().all(|seam| {
                 sound(seam.rest_length) && [seam.a, seam.b].iter().all(|&end| (end as usize) < particles)
             })

@@ -12,6 +12,7 @@ mod rope;
 mod soft_solid;
 mod surface;
 mod truss;
+mod wear;
 
 use std::ops::Range;
 use std::sync::Arc;

@@ -32,6 +32,11 @@ impl Stick {
         Err(Error::Invalid { field: field.into(), problem })
     }
 
+    /// By what share of its length it is too long where its body's particles are.
+    pub(crate) fn strain(&self, positions: &[Vec3]) -> f32 {
+        positions[self.a as usize].distance(positions[self.b as usize]) / self.rest_length - 1.0
+    }
+
     /// A stick between two of `positions` that is at rest there.
     pub(crate) fn at_rest(a: u32, b: u32, positions: &[Vec3]) -> Self {
         Self { a, b, rest_length: positions[a as usize].distance(positions[b as usize]) }

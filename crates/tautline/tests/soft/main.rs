@@ -14,6 +14,7 @@ mod rest;
 mod ropes;
 mod solids;
 mod together;
+mod wear;
 mod winding;
 
 use std::sync::Arc;

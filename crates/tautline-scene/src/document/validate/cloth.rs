@@ -3,9 +3,9 @@
 use super::shape::check_surface;
 use super::{check_bending_stiffness, check_beyond_paper, check_pin, check_rotation};
 use crate::document::check::{
-    COEFFICIENT, COORDINATE, Checker, MASS, NOT_NEGATIVE, STRAIN, THICKNESS, UP_TO_LARGE,
+    COEFFICIENT, COORDINATE, Checker, MASS, NOT_NEGATIVE, RATE, SOME_STRAIN, STRAIN, THICKNESS, UP_TO_LARGE,
 };
-use crate::document::{Cloth, Pin, SheetPlace, Surface};
+use crate::document::{Cloth, Creep, Pin, SheetPlace, Surface};
 
 pub(super) fn check_cloth(c: &mut Checker, cloth: &Cloth, has_trusses: bool) {
     c.within("surface", |c| check_surface(c, &cloth.surface));
@@ -68,6 +68,7 @@ fn check_fabric(c: &mut Checker, cloth: &Cloth, count: u64, has_trusses: bool) {
         "it is of no use without a compliance".to_owned()
     });
     c.optional("strain_limit", cloth.strain_limit, STRAIN);
+    check_wear(c, cloth);
     c.optional("drag", cloth.drag, COEFFICIENT);
     c.optional("lift", cloth.lift, COEFFICIENT);
     c.optional("pressure", cloth.pressure, UP_TO_LARGE);
@@ -84,12 +85,31 @@ fn check_fabric(c: &mut Checker, cloth: &Cloth, count: u64, has_trusses: bool) {
         ("compliance", cloth.compliance.is_some()),
         ("shear_compliance", cloth.shear_compliance.is_some()),
         ("strain_limit", cloth.strain_limit.is_some()),
+        ("tear_at", cloth.tear_at.is_some()),
+        ("creep", cloth.creep.is_some()),
         ("drag", cloth.drag.is_some()),
         ("lift", cloth.lift.is_some()),
         ("pressure", cloth.pressure.is_some()),
         ("seams", !cloth.seams.is_empty()),
     ];
     check_beyond_paper(c, &fields, has_trusses);
+}
+
+/// What being stretched does to it for good.
+fn check_wear(c: &mut Checker, cloth: &Cloth) {
+    c.optional("tear_at", cloth.tear_at, SOME_STRAIN);
+    if let Some(Creep { yield_strain, rate }) = cloth.creep {
+        c.number("creep.yield_strain", yield_strain, STRAIN);
+        c.number("creep.rate", rate, RATE);
+    }
+    let stretches = cloth.compliance.is_some_and(|compliance| compliance > 0.0);
+    for (field, is_given) in [("tear_at", cloth.tear_at.is_some()), ("creep", cloth.creep.is_some())] {
+        c.require(stretches || !is_given, field, || {
+            "it is of no use without a compliance above 0".to_owned()
+        });
+    }
+    let is_reached = cloth.strain_limit.zip(cloth.tear_at).is_none_or(|(limit, strain)| limit > strain);
+    c.require(is_reached, "tear_at", || "it is never reached: the strain limit must be greater".to_owned());
 }
 
 fn place_name(place: &SheetPlace) -> String {

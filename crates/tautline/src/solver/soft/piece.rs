@@ -216,11 +216,9 @@ impl Piece {
             let count = flesh.edges.iter().map(|edge| edge.a.max(edge.b) as usize + 1).max().unwrap_or(0);
             return Exempt::along(&flesh.edges, count, self.places.start, distance * SQUEEZE);
         }
-        let count =
-            deformable.sticks.iter().map(|stick| stick.a.max(stick.b)).max().map_or(0, |last| last + 1);
         let seams = deformable.fabric.seams.iter().map(|seam| Stick { rest_length: 0.0, ..*seam });
         let sticks: Vec<Stick> = deformable.sticks.iter().copied().chain(seams).collect();
-        Exempt::along(&sticks, count as usize, self.places.start, distance * 1.2)
+        Exempt::along(&sticks, self.places.len(), self.places.start, distance * 1.2)
     }
 
     /// Brings the boxes around tiles up to date.
