@@ -9,7 +9,7 @@ use crate::document::{
 
 pub(super) const TABLECLOTH: NamedScene = NamedScene {
     name: "tablecloth",
-    description: "The cloth is pulled away from under the crockery, which stays on the table.",
+    description: "The cloth is pulled away from under the crockery; most of it stays on the table.",
     parameters: &[
         Parameter::count(
             "speed",
