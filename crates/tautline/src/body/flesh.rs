@@ -132,7 +132,8 @@ mod tests {
         let shares = flesh.shares(solid.points.len()).unwrap();
         assert!((shares.iter().sum::<f32>() - 6.0).abs() < 1e-5);
         // An inner particle has as much as a cell.
-        let inner = solid.points.iter().position(|p| *p == Vec3::new(0.0, -1.0 / 3.0, 0.0)).unwrap();
+        let center = Vec3::new(0.0, -1.0 / 3.0, 0.0);
+        let inner = solid.points.iter().position(|point| point.distance(center) < 1e-6).unwrap();
         assert!((shares[inner] - 0.25).abs() < 1e-6, "{}", shares[inner]);
     }
 
