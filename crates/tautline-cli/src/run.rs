@@ -88,8 +88,7 @@ pub(crate) fn prepare<'a>(
 /// Does something in a pool of so many threads, or in the one that there is.
 fn in_pool<T: Send>(threads: Option<u16>, task: impl FnOnce() -> T + Send) -> Result<T, Failure> {
     let Some(threads) = threads else { return Ok(task()) };
-    // As much as the main thread has: without optimisation, what is inlined for one instruction set has large frames.
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).stack_size(8 << 20).build();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build();
     let pool = pool.map_err(|error| Failure::Usage(format!("--threads {threads}: {error}")))?;
     Ok(pool.install(task))
 }

@@ -242,6 +242,21 @@ fn problems_carry_the_path_of_their_field() {
             "[{cloth: {pins: [400]}}]",
             "bodies[0].cloth.pins[0]: 400 is the index of no particle: there are 400",
         ),
+        ("[{rope: {path: {points: [[0, 0, 0]]}}}]", "bodies[0].rope.path.points: 1 points make no rope"),
+        ("[{rope: {path: {points: [[0, 0, 0], [0, 0, 0]]}}}]", "bodies[0].rope.path.points[1]: "),
+        ("[{half_space: {normal: [0, 0, 0]}}]", "bodies[0].half_space.normal: "),
+        ("[{room: {min: [0, 0, 0], max: [1, 0, 1]}}]", "bodies[0].room.max[1]: 0 is not above min[1], 0"),
+        (
+            "[{rope: {name: 'a'}}, {cloth: {name: 'a'}}]",
+            "bodies[1].cloth.name: \"a\" is the name of bodies[0] too",
+        ),
+    ];
+    each_has_its_problem(&cases);
+}
+
+#[test]
+fn problems_of_what_fabric_is_made_of_carry_the_path_of_their_field() {
+    each_has_its_problem(&[
         ("[{cloth: {density: -1}}]", "bodies[0].cloth.density: -1 is not a finite number above 0"),
         ("[{cloth: {masses: [1, 2]}}]", "bodies[0].cloth.masses: 2 masses are not one for each of 400"),
         (
@@ -273,15 +288,11 @@ fn problems_carry_the_path_of_their_field() {
             "bodies[0].rope.bending_stiffness: there is bending",
         ),
         ("[{rope: {compliance: -1}}]", "bodies[0].rope.compliance: -1 is not a number from 0 to 1e12"),
-        ("[{rope: {path: {points: [[0, 0, 0]]}}}]", "bodies[0].rope.path.points: 1 points make no rope"),
-        ("[{rope: {path: {points: [[0, 0, 0], [0, 0, 0]]}}}]", "bodies[0].rope.path.points[1]: "),
-        ("[{half_space: {normal: [0, 0, 0]}}]", "bodies[0].half_space.normal: "),
-        ("[{room: {min: [0, 0, 0], max: [1, 0, 1]}}]", "bodies[0].room.max[1]: 0 is not above min[1], 0"),
-        (
-            "[{rope: {name: 'a'}}, {cloth: {name: 'a'}}]",
-            "bodies[1].cloth.name: \"a\" is the name of bodies[0] too",
-        ),
-    ];
+    ]);
+}
+
+/// Bodies with one problem each, and how it begins.
+fn each_has_its_problem(cases: &[(&str, &str)]) {
     for (bodies, expected) in cases {
         let problems = problems_of(bodies);
         assert_eq!(problems.len(), 1, "{bodies}: {problems:?}");
@@ -325,7 +336,8 @@ fn all_problems_are_found_in_the_order_of_the_document() {
 fn what_only_small_steps_know_is_refused_for_the_paper() {
     let text =
         "{tautline: 1, settings: {solver: 'paper'}, bodies: [{cloth: {bending_stiffness: 1, compliance: 1,
-        shear_compliance: 1, strain_limit: 1, tear_at: 0.5, creep: {yield_strain: 0, rate: 1}, drag: 1, lift: 1, pressure: 1, seams: [[0, 1]], density: 1}},
+        shear_compliance: 1, strain_limit: 1, tear_at: 0.5, creep: {yield_strain: 0, rate: 1}, drag: 1, lift: 1,
+        pressure: 1, seams: [[0, 1]], density: 1}},
         {rope: {bending_stiffness: 1, compliance: 1}}]}";
     let problems = parse(text, Format::Json5).unwrap().problems();
     let fields: Vec<&str> = problems.iter().filter_map(|problem| problem.path.rsplit('.').next()).collect();

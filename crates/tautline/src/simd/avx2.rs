@@ -24,7 +24,7 @@ pub(super) fn is_available() -> bool {
 /// Does the work with AVX2, or, should the processor not have it, as all others do.
 pub(super) fn run<K: Kernel>(kernel: K) -> K::Output {
     if !is_available() {
-        return kernel.run::<super::portable::Portable>();
+        return super::run_with::<super::portable::Portable, K>(kernel);
     }
     // SAFETY: the processor has AVX2.
     unsafe { run_with_avx2(kernel) }

@@ -126,9 +126,16 @@ pub(crate) fn run<K: Kernel>(instructions: Instructions, kernel: K) -> K::Output
     match instructions {
         #[cfg(target_arch = "x86_64")]
         Instructions::Widest if avx2::is_available() => avx2::run(kernel),
-        Instructions::Widest | Instructions::Baseline => kernel.run::<portable::Portable>(),
-        Instructions::Scalar => kernel.run::<scalar::Scalar>(),
+        Instructions::Widest | Instructions::Baseline => run_with::<portable::Portable, K>(kernel),
+        Instructions::Scalar => run_with::<scalar::Scalar, K>(kernel),
     }
+}
+
+/// Not inlined: without optimisation a kernel's frame takes half a megabyte of stack, and only that of the instructions in
+/// use is to be there.
+#[inline(never)]
+fn run_with<L: Lanes, K: Kernel>(kernel: K) -> K::Output {
+    kernel.run::<L>()
 }
 
 #[cfg(test)]

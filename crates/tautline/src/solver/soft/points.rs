@@ -89,7 +89,8 @@ impl Points {
         get(&self.displacement, place)
     }
 
-    /// Begins a small step (paper, Eq 1): gravity is added, and all moves on, each particle by `limit` (m) at most. Returns how far the fastest goes, in m.
+    /// Begins a small step (paper, Eq 1): gravity is added, and all moves on, each particle by `limit` (m) at most. Returns how
+    /// far the fastest goes, in m.
     #[inline(always)]
     pub(super) fn integrate<L: Lanes>(&mut self, places: std::ops::Range<usize>, step: SmallStep) -> f32 {
         let fall = Vec3x8::<L>::splat(step.fall);

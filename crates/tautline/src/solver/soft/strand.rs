@@ -134,7 +134,8 @@ impl Strands {
         }));
     }
 
-    /// Moves apart what is too close, with friction; what was too close before by `recovery` (m) at most. Calls `leans` with the pieces of cloth that lean on held ropes.
+    /// Moves apart what is too close, with friction; what was too close before by `recovery` (m) at most. Calls `leans` with
+    /// the pieces of cloth that lean on held ropes.
     pub(super) fn part(&self, points: &mut Points, recovery: f32, mut leans: impl FnMut(u32)) {
         for near in &self.nears {
             if near.part(points, recovery) && near.leaning != u32::MAX {
