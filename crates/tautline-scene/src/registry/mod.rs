@@ -6,6 +6,7 @@ mod balance;
 mod bridge;
 mod chain;
 mod cloth;
+mod frame;
 mod garment;
 mod hold;
 mod impact;

@@ -2,10 +2,9 @@
 
 use tautline::Vec3;
 
+use super::frame::square_frame;
 use super::{NamedScene, Parameter, Parameters};
-use crate::document::{
-    AxisAngle, Body, Camera, Color, HalfSpace, Pin, Rigid, Rope, Rotation, Scene, Shape, Thread,
-};
+use crate::document::{Body, Camera, Color, HalfSpace, Pin, Rigid, Rope, Rotation, Scene, Shape, Thread};
 use crate::random::Random;
 
 pub(super) const NET: NamedScene = NamedScene {
@@ -31,7 +30,8 @@ const RADIUS: f32 = 0.16;
 fn net(p: &Parameters) -> Scene {
     let mut random = Random::new(p.seed());
     let mut bodies = vec![Body::HalfSpace(HalfSpace::default())];
-    bodies.extend(frame().into_iter().map(Body::Rigid));
+    let frame = square_frame(REACH + POLE + 0.02, HEIGHT, POLE, Color([96, 104, 116]));
+    bodies.extend(frame.into_iter().map(Body::Rigid));
     bodies.push(Body::Rope(knotted(p.count("meshes"))));
     bodies.extend((0..p.count("n")).map(|i| Body::Rigid(falling(i, &mut random))));
     let camera = Some(Camera { eye: [3.0, 2.2, 5.2], target: [0.0, 1.35, 0.0], fov: 36.0 });
@@ -65,29 +65,6 @@ fn knotted(meshes: u32) -> Rope {
         color: Some(Color([214, 196, 150])),
         ..Rope::default()
     }
-}
-
-/// Four poles around the net, and four to stand on.
-fn frame() -> Vec<Rigid> {
-    let out = REACH + POLE + 0.02;
-    let pole = |position: Vec3, height: f32, axis: Vec3| Rigid {
-        shape: Shape::Capsule { radius: POLE, height, segments: None, rings: None },
-        position: position.to_array(),
-        rotation: Rotation::AxisAngle(AxisAngle { axis: axis.to_array(), degrees: 90.0 }),
-        fixed: true,
-        color: Some(Color([96, 104, 116])),
-        ..Rigid::default()
-    };
-    let mut poles = Vec::new();
-    for side in [-1.0, 1.0] {
-        poles.push(pole(Vec3::new(0.0, HEIGHT, side * out), 2.0 * out, Vec3::Z));
-        poles.push(pole(Vec3::new(side * out, HEIGHT, 0.0), 2.0 * out, Vec3::X));
-        for other in [-1.0, 1.0] {
-            let foot = Vec3::new(side * out, HEIGHT / 2.0, other * out);
-            poles.push(pole(foot, HEIGHT - 2.0 * POLE, Vec3::Y));
-        }
-    }
-    poles
 }
 
 /// In layers of 25 above the net.

@@ -1,7 +1,6 @@
 //! A trampoline.
 
-use tautline::Vec3;
-
+use super::frame::square_frame;
 use super::hold::in_world;
 use super::{NamedScene, Parameter, Parameters};
 use crate::document::{
@@ -41,7 +40,8 @@ fn trampoline(p: &Parameters) -> Scene {
         ..Cloth::default()
     };
     let mut bodies = vec![Body::HalfSpace(HalfSpace::default()), Body::Cloth(cloth)];
-    bodies.extend(frame().into_iter().map(Body::Rigid));
+    let frame = square_frame(REACH + POLE + 0.08, HEIGHT, POLE, STEEL);
+    bodies.extend(frame.into_iter().map(Body::Rigid));
     bodies.extend(jumpers().map(Body::Rigid));
     let compliance = 1.0 / (p.count("stiffness") as f32 * cell);
     let last = side - 1;
@@ -54,29 +54,6 @@ fn trampoline(p: &Parameters) -> Scene {
     let attachments = particles.filter(rim).map(spring).collect();
     let camera = Some(Camera { eye: [2.6, 2.5, 4.6], target: [0.0, 1.1, 0.0], fov: 38.0 });
     Scene { seconds: 5.0, record_every: 2, bodies, attachments, camera, ..Scene::default() }
-}
-
-/// Poles around the cloth, and feet.
-fn frame() -> Vec<Rigid> {
-    let out = REACH + POLE + 0.08;
-    let pole = |position: Vec3, height: f32, axis: Vec3| Rigid {
-        shape: Shape::Capsule { radius: POLE, height, segments: None, rings: None },
-        position: position.to_array(),
-        rotation: Rotation::AxisAngle(AxisAngle { axis: axis.to_array(), degrees: 90.0 }),
-        fixed: true,
-        color: Some(STEEL),
-        ..Rigid::default()
-    };
-    let mut poles = Vec::new();
-    for side in [-1.0, 1.0] {
-        poles.push(pole(Vec3::new(0.0, HEIGHT, side * out), 2.0 * out, Vec3::Z));
-        poles.push(pole(Vec3::new(side * out, HEIGHT, 0.0), 2.0 * out, Vec3::X));
-        for other in [-1.0, 1.0] {
-            let foot = Vec3::new(side * out, HEIGHT / 2.0, other * out);
-            poles.push(pole(foot, HEIGHT - 2.0 * POLE, Vec3::Y));
-        }
-    }
-    poles
 }
 
 fn jumpers() -> [Rigid; 2] {

@@ -240,6 +240,14 @@ fn check_pin<Place>(c: &mut Checker, field: impl Display, pin: &Pin<Place>, coun
     }
 }
 
+fn check_mass_or_density(c: &mut Checker, mass: Option<f32>, density: Option<f32>) {
+    c.optional("mass", mass, MASS);
+    c.optional("density", density, MASS);
+    c.require(mass.is_none() || density.is_none(), "density", || {
+        "there is a mass already: give one of the two".to_owned()
+    });
+}
+
 fn check_rotation(c: &mut Checker, rotation: &Rotation) {
     match rotation {
         Rotation::Quaternion(quaternion) => c.direction("rotation", quaternion),

@@ -1,8 +1,8 @@
 //! Judges rigid bodies.
 
 use super::shape::check_shape;
-use super::{NOT_OF_TRUSSES, check_rotation, check_surface_of_rigid};
-use crate::document::check::{COORDINATE, Checker, FACTOR, MASS, NOT_NEGATIVE, RATE};
+use super::{NOT_OF_TRUSSES, check_mass_or_density, check_rotation, check_surface_of_rigid};
+use crate::document::check::{COORDINATE, Checker, FACTOR, NOT_NEGATIVE, RATE};
 use crate::document::{Groups, Motion, Rigid};
 
 /// Groups are bits of a 32-bit number.
@@ -14,11 +14,7 @@ pub(super) fn check_rigid(c: &mut Checker, rigid: &Rigid, is_truss: bool) {
     check_rotation(c, &rigid.rotation);
     c.vector("velocity", &rigid.velocity, COORDINATE);
     c.vector("angular_velocity", &rigid.angular_velocity, COORDINATE);
-    c.optional("mass", rigid.mass, MASS);
-    c.optional("density", rigid.density, MASS);
-    c.require(rigid.mass.is_none() || rigid.density.is_none(), "density", || {
-        "there is a mass already: give one of the two".to_owned()
-    });
+    check_mass_or_density(c, rigid.mass, rigid.density);
     c.number("friction", rigid.friction, NOT_NEGATIVE);
     check_surface_of_rigid(c, rigid.restitution, rigid.rolling_friction, is_truss);
     c.optional("gravity_scale", rigid.gravity_scale, FACTOR);

@@ -1,8 +1,8 @@
 //! Judges soft solids.
 
 use super::shape::check_shape;
-use super::{NOT_OF_TRUSSES, check_rotation};
-use crate::document::check::{COORDINATE, Checker, MASS, MODULUS, NOT_NEGATIVE, POISSON_RATIO, THICKNESS};
+use super::{NOT_OF_TRUSSES, check_mass_or_density, check_rotation};
+use crate::document::check::{COORDINATE, Checker, MODULUS, NOT_NEGATIVE, POISSON_RATIO, THICKNESS};
 use crate::document::{Shape, SoftSolid};
 
 /// Most cells along an axis.
@@ -23,11 +23,7 @@ pub(super) fn check_soft_solid(c: &mut Checker, solid: &SoftSolid, has_trusses: 
     check_rotation(c, &solid.rotation);
     c.vector("velocity", &solid.velocity, COORDINATE);
     c.vector("angular_velocity", &solid.angular_velocity, COORDINATE);
-    c.optional("mass", solid.mass, MASS);
-    c.optional("density", solid.density, MASS);
-    c.require(solid.mass.is_none() || solid.density.is_none(), "density", || {
-        "there is a mass already: give one of the two".to_owned()
-    });
+    check_mass_or_density(c, solid.mass, solid.density);
     c.number("young_modulus", solid.young_modulus, MODULUS);
     c.number("poisson_ratio", solid.poisson_ratio, POISSON_RATIO);
     c.number("friction", solid.friction, NOT_NEGATIVE);
