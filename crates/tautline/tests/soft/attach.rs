@@ -164,9 +164,9 @@ fn a_closed_chain_keeps_momentum_and_gains_no_energy() {
         run(&mut world, 1.0);
         let off = (world.momentum() - linear).length() / linear.length();
         assert!(off < 1e-5, "momentum is off by {off}");
-        // What sticks take from a spinning rope, which is more without a ball.
+        // Most of it is what a crumpled cloth's friction with itself takes, whose impulses are a thickness apart.
         let off = (world.angular_momentum() - angular).length() / angular.length();
-        assert!(off < 0.05, "angular momentum is off by {off}");
+        assert!(off < 0.03, "angular momentum is off by {off}");
         assert!(world.kinetic_energy() < energy + 1e-2 * first, "energy grew from {energy}");
         energy = world.kinetic_energy();
     }
