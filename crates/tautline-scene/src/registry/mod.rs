@@ -3,9 +3,11 @@
 
 mod bag;
 mod balance;
+mod balloon;
 mod bridge;
 mod chain;
 mod cloth;
+mod flag;
 mod frame;
 mod garment;
 mod hold;
@@ -19,6 +21,7 @@ mod rigid;
 mod rope;
 mod stacks;
 mod table;
+mod tear;
 mod together;
 mod trampoline;
 mod window;
@@ -86,6 +89,9 @@ pub fn scenes() -> &'static [NamedScene] {
         trampoline::TRAMPOLINE,
         knot::KNOT,
         garment::GARMENTS,
+        flag::FLAG,
+        balloon::BALLOON,
+        tear::TEAR,
     ]
 }
 
