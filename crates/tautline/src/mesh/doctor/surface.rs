@@ -175,20 +175,28 @@ impl<'a> Surface<'a> {
             |number: u32| components.get(number as usize).is_some_and(|component| component.is_closed);
         let surface: Vec<Option<u32>> =
             number.iter().map(|&number| closed(number).then_some(number)).collect();
+        let depths = |asked: &[(u32, u32)]| depths(&self.points, self.triangles, &surface, asked);
+        let vertex = |triangle: u32| self.triangles[triangle as usize][0];
         let asked: Vec<(u32, u32)> = (0..components.len() as u32)
             .filter(|&number| closed(number))
-            .map(|number| (self.triangles[components[number as usize].first_triangle as usize][0], number))
+            .map(|number| (vertex(components[number as usize].first_triangle), number))
             .collect();
-        let depths = depths(&self.points, self.triangles, &surface, &asked);
-        let wrong = asked.iter().zip(depths).filter(|&(&(_, number), depth)| {
-            let faces_outwards = components[number as usize].volume >= 0.0;
-            faces_outwards != (depth % 2 == 0)
-        });
-        wrong
-            .map(|(&(_, number), _)| Defect::InsideOut {
-                triangle: components[number as usize].first_triangle,
-            })
-            .collect()
+        let mut is_within = vec![false; components.len()];
+        for (&(_, number), depth) in asked.iter().zip(depths(&asked)) {
+            is_within[number as usize] = depth % 2 == 1;
+        }
+        // What crosses another is not inside it as a whole: it faces outwards.
+        let within = (0..self.triangles.len() as u32)
+            .filter(|&t| self.included[t as usize] && is_within[number[t as usize] as usize]);
+        let asked: Vec<(u32, u32)> = within.map(|t| (vertex(t), number[t as usize])).collect();
+        for (&(_, number), depth) in asked.iter().zip(depths(&asked)) {
+            is_within[number as usize] &= depth % 2 == 1;
+        }
+        let wrong = components
+            .iter()
+            .zip(is_within)
+            .filter(|(component, is_within)| component.is_closed && (component.volume < 0.0) != *is_within);
+        wrong.map(|(component, _)| Defect::InsideOut { triangle: component.first_triangle }).collect()
     }
 }
 

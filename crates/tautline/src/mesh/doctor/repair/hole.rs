@@ -34,7 +34,9 @@ pub(super) fn fill(patient: &mut Patient, options: &RepairOptions) {
             fillings.push(Filling { rim: rim.vertices, triangles });
         }
     }
-    add_what_crosses_nothing(patient, fillings);
+    if !fillings.is_empty() {
+        add_what_crosses_nothing(patient, fillings);
+    }
 }
 
 /// The area of each triangle's component, in m².
