@@ -1,6 +1,7 @@
-//! Surfaces and solids: half-edge meshes, primitives, hulls, tetrahedra and mass properties. Knows no
+//! Surfaces and solids: half-edge meshes, primitives, hulls, tetrahedra, mass properties and repair. Knows no
 //! world.
 
+pub mod doctor;
 mod exact;
 mod half_edge;
 mod hull;
