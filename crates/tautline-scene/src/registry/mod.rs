@@ -12,11 +12,14 @@ mod hold;
 mod impact;
 mod jelly;
 mod knot;
+mod mesh_drop;
 mod net;
 mod parameter;
 mod ragdoll;
 mod rigid;
 mod rope;
+mod scan;
+mod sculpture;
 mod stacks;
 mod table;
 mod together;
@@ -86,6 +89,8 @@ pub fn scenes() -> &'static [NamedScene] {
         trampoline::TRAMPOLINE,
         knot::KNOT,
         garment::GARMENTS,
+        mesh_drop::MESH_DROP,
+        scan::SCAN_DRAPE,
     ]
 }
 
