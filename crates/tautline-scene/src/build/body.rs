@@ -151,9 +151,10 @@ impl Builder {
     }
 
     fn add_soft_solid(&mut self, name: String, solid: &SoftSolid) -> Result<(), Refusal> {
-        let body = self.world.add(soft_solid(solid)?)?;
+        let (soft, skin) = soft_solid(solid)?;
+        let body = self.world.add(soft)?;
         let color = self.color(solid.color);
-        self.push(name, color, body, Look::Sheet);
+        self.push(name, color, body, skin.map_or(Look::Sheet, Look::Skin));
         Ok(())
     }
 

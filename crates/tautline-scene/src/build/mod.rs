@@ -22,6 +22,7 @@ use crate::render::Camera;
 use body::Builder;
 
 pub use cue::Cue;
+pub use soft::Skin;
 
 /// A scene ready to run: its world, and what is needed to draw and judge it.
 #[derive(Debug, Clone)]
@@ -68,6 +69,8 @@ pub enum Look {
     Round(Arc<TriMesh>),
     /// A sheet: the triangles are those of the body's view.
     Sheet,
+    /// A surface that is finer than what is simulated, and moves with it.
+    Skin(Arc<Skin>),
     /// A tube along the body's particles, or one for each segment of a net.
     Tube {
         /// Radius, in m.

@@ -14,11 +14,14 @@ mod hold;
 mod impact;
 mod jelly;
 mod knot;
+mod mesh_drop;
 mod net;
 mod parameter;
 mod ragdoll;
 mod rigid;
 mod rope;
+mod scan;
+mod sculpture;
 mod stacks;
 mod table;
 mod tear;
@@ -92,6 +95,8 @@ pub fn scenes() -> &'static [NamedScene] {
         flag::FLAG,
         balloon::BALLOON,
         tear::TEAR,
+        mesh_drop::MESH_DROP,
+        scan::SCAN_DRAPE,
     ]
 }
 

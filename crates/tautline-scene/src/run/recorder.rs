@@ -1,11 +1,13 @@
 //! What a world looks like, frame by frame.
 
+use std::sync::Arc;
+
 use tautline::mesh::TriMesh;
 use tautline::{BodyHandle, World};
 
 use super::tears::Tears;
 use super::tubes::Tubes;
-use crate::build::{BuiltScene, Look, Part};
+use crate::build::{BuiltScene, Look, Part, Skin};
 use crate::error::Error;
 use crate::recording::{Motion, Recording, Surface, Track};
 
@@ -22,6 +24,7 @@ enum Source {
     Still,
     Rigid(BodyHandle),
     Sheet(BodyHandle, Tears),
+    Skin(BodyHandle, Arc<Skin>),
     Rope(BodyHandle, Tubes),
 }
 
@@ -59,6 +62,9 @@ impl Recorder {
                     let sheet = world.body(*body)?;
                     tears.note(sheet.triangles(), frames.len());
                     frames.push(sheet.positions().to_vec());
+                }
+                (Source::Skin(body, skin), Motion::Deforming(frames)) => {
+                    frames.push(skin.embedding.positions(world.body(*body)?.positions()));
                 }
                 (Source::Rope(body, tubes), Motion::Deforming(frames)) => {
                     frames.push(tubes.positions(world.body(*body)?.positions()));
@@ -100,6 +106,11 @@ fn track_of(part: &Part, world: &World) -> Result<(Track, Source), Error> {
             let mesh = TriMesh { positions: body.positions().to_vec(), triangles: body.triangles().to_vec() };
             let source = Source::Sheet(part.body, Tears::new(body.triangles()));
             (Surface::Sheet, mesh, Motion::Deforming(Vec::new()), source)
+        }
+        Look::Skin(skin) => {
+            let positions = skin.embedding.positions(body.positions());
+            let mesh = TriMesh { positions, triangles: skin.triangles.clone() };
+            (Surface::Round, mesh, Motion::Deforming(Vec::new()), Source::Skin(part.body, Arc::clone(skin)))
         }
         Look::Tube { radius } => {
             let mut tubes = Tubes::new(*radius, body.sticks());
