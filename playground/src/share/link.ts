@@ -29,6 +29,7 @@ export async function toLink(source: Source): Promise<string | undefined> {
 export async function fromLink(hash: string): Promise<Source | undefined> {
   if (hash.length > MOST_CHARACTERS) throw new Error("The link is too long to be one of this page's.");
   const fields = new URLSearchParams(hash.replace(/^#/, ""));
+  if (fields.has("served")) return { kind: "text", text: await served() };
   const packed = fields.get("document");
   if (packed !== null) return { kind: "text", text: await unpack(packed) };
   const name = fields.get("scene");
@@ -44,6 +45,13 @@ export async function fromLink(hash: string): Promise<Source | undefined> {
     values[field] = value;
   }
   return { kind: "named", name, values, settings: settingsOf(fields.get("settings")) };
+}
+
+/** The document that `tautline view FILE` serves beside the page. */
+async function served(): Promise<string> {
+  const response = await fetch("./scene.json");
+  if (!response.ok) throw new Error("There is no scene beside this page.");
+  return response.text();
 }
 
 /** Settings are judged by the engine; here they only have to be an object. */

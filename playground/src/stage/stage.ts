@@ -5,6 +5,7 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
 import type { Camera } from "../engine/protocol";
 import type { Theme } from "./palette";
+import { installToneMapping } from "./tone";
 import { View } from "./view";
 
 /** Where pictures are taken from unless a scene says otherwise. */
@@ -30,7 +31,7 @@ export class Stage {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.shadowMap.enabled = true;
-    this.renderer.toneMapping = THREE.NeutralToneMapping;
+    this.renderer.toneMapping = installToneMapping();
     this.renderer.setScissorTest(true);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = true;

@@ -40,9 +40,8 @@ export class View {
 
   constructor(theme: Theme) {
     this.sun.castShadow = true;
-    this.sun.shadow.mapSize.set(2048, 2048);
-    this.sun.shadow.radius = 3;
-    this.sun.shadow.normalBias = 0.02;
+    this.sun.shadow.mapSize.set(1536, 1536);
+    this.sun.shadow.radius = 6;
     this.scene.add(this.sky, this.sun, this.sun.target, this.ground.object, this.world, this.overlay);
     this.paint(theme);
   }
