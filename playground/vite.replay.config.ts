@@ -1,10 +1,11 @@
 // The page that plays a recording, as one file: `tautline run … --out x.html` puts the recording into it.
 import { createHash } from "node:crypto";
-import { mkdirSync, writeFileSync } from "node:fs";
+import { writeFileSync } from "node:fs";
+import { fileURLToPath } from "node:url";
 import { type Plugin, defineConfig } from "vite";
 
-/** Where the engine's exporter has it from. */
-const TEMPLATE = "../crates/tautline-scene/src/export/html/replay.html";
+/** Where the engine's exporter has it from; a test has it made elsewhere, and compares. */
+const TEMPLATE = process.env.REPLAY ?? fileURLToPath(new URL("../crates/tautline-scene/src/export/html/replay.html", import.meta.url));
 
 /** Puts scripts and styles into the page, and allows these and no others. */
 function inline(): Plugin {
@@ -25,8 +26,7 @@ function inline(): Plugin {
         .replace("</title>", () => `</title>\n    <style>${style}</style>\n    <script type="module">${code}</script>`)
         .replace('<meta charset="utf-8" />', `<meta charset="utf-8" />\n    <meta http-equiv="Content-Security-Policy" content="${allowed}" />`);
       for (const name of Object.keys(bundle)) delete bundle[name];
-      mkdirSync(new URL(".", new URL(TEMPLATE, import.meta.url)), { recursive: true });
-      writeFileSync(new URL(TEMPLATE, import.meta.url), html);
+      writeFileSync(TEMPLATE, html);
     },
   };
 }

@@ -73,7 +73,7 @@ export interface Opened {
   dt: number;
   seconds: number;
   camera: Camera | undefined;
-  settings: Required<Settings>;
+  settings: Settings;
   frame: Frame;
 }
 
@@ -149,7 +149,7 @@ export interface Engine {
   grab(body: number, point: Vec3): number;
   moveGrab(grab: number, target: Vec3): void;
   release(grab: number): void;
-  changeSettings(changes: Settings): Required<Settings>;
+  changeSettings(changes: Settings): Settings;
   check(text: string): Problem[];
   importMesh(bytes: Uint8Array, fileName: string, text: string): Imported;
   startRecording(): void;

@@ -6,7 +6,7 @@ import { World, document, parse, schema, scenes, validate, version, withSolver }
 import { importMesh } from "./import_mesh";
 import { inspect } from "./inspect";
 import { indented } from "./json";
-import type { Engine, Frame, Hello, Imported, Opened, Part, Problem, Query, Solver, Source } from "./protocol";
+import type { Camera, Engine, Frame, Hello, Imported, Opened, Part, Problem, Query, Solver, Source } from "./protocol";
 
 export class Simulation implements Engine {
   private readonly ready: Promise<void>;
@@ -37,7 +37,8 @@ export class Simulation implements Engine {
       text: source.kind === "text" ? source.text : indented(scene),
       dt: world.dt,
       seconds: world.seconds,
-      camera: world.camera,
+      // Complete: the engine has filled its defaults in.
+      camera: world.camera as Required<Camera> | undefined,
       settings: world.settings,
       frame: this.frame(0),
     };
@@ -71,7 +72,7 @@ export class Simulation implements Engine {
     this.opened().release(grab as GrabHandle);
   }
 
-  changeSettings(changes: Settings): Required<Settings> {
+  changeSettings(changes: Settings): Settings {
     const world = this.opened();
     world.setSettings(changes);
     return world.settings;
