@@ -99,6 +99,11 @@ export class Playground extends Emitter implements Holder {
     if (this.source) await this.open(this.source, false);
   }
 
+  /** Looks at all there is, wherever it has got to. */
+  lookAtAll(): void {
+    this.stage.frame(this.main.view.bounds(), undefined);
+  }
+
   setPlaying(playing: boolean): void {
     this.playing = playing;
     this.emit("state", undefined);

@@ -83,7 +83,8 @@ export class EditPanel {
     this.status.classList.toggle("wrong", problems.length > 0);
     const [first] = problems;
     if (!first) return fill(this.status, "Runs as you type.");
-    const place = first.line === undefined ? first.path : `line ${first.line}`;
+    const line = first.line === undefined ? "" : `line ${first.line}`;
+    const place = [line, first.path].filter(Boolean).join(", ");
     const more = problems.length > 1 ? ` (and ${problems.length - 1} more)` : "";
     fill(this.status, `${place ? `${place}: ` : ""}${first.message}${more}`);
   }

@@ -17,6 +17,9 @@ export interface Places {
   positions: Float32Array;
 }
 
+/** A floor that is further below a thing than this many times its size is not looked at with it. */
+const FALL = 2;
+
 /** What a ray has met. */
 export interface Hit {
   part: Part;
@@ -106,7 +109,12 @@ export class View {
     }
     for (const sheet of this.sheets) box.union(new THREE.Box3().setFromObject(sheet.object));
     for (const thread of this.threads) box.union(new THREE.Box3().setFromObject(thread.object));
-    return box.isEmpty() ? new THREE.Box3(new THREE.Vector3(-1, 0, -1), new THREE.Vector3(1, 1, 1)) : box;
+    if (box.isEmpty()) return new THREE.Box3(new THREE.Vector3(-1, 0, -1), new THREE.Vector3(1, 1, 1));
+    // What is above a floor will fall on it.
+    const floor = lowestFloor(this.parts)?.height ?? box.min.y;
+    const size = box.getSize(new THREE.Vector3());
+    if (box.min.y - floor < FALL * Math.max(size.x, size.y, size.z)) box.min.y = Math.min(box.min.y, floor);
+    return box;
   }
 
   /** The first body that a ray meets. */

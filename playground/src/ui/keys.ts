@@ -29,7 +29,7 @@ function actionOf(playground: Playground, key: string): (() => unknown) | undefi
     ".": () => playground.step(),
     r: () => playground.reset(),
     s: () => playground.setSpeed(playground.speed === 1 ? SLOW : 1),
-    f: () => playground.stage.reframe(),
+    f: () => playground.lookAtAll(),
   };
   return actions[key.toLowerCase()];
 }
