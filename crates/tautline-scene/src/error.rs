@@ -132,6 +132,19 @@ pub struct Problem {
     pub message: String,
 }
 
+impl Problem {
+    /// The same problem of a part of something, whose path begins so.
+    pub(crate) fn within(self, start: &str) -> Self {
+        Self { path: format!("{start}{}", self.path), ..self }
+    }
+
+    /// The same problem of a part by itself, whose path begins so in the whole.
+    pub(crate) fn without(self, start: &str) -> Self {
+        let path = self.path.strip_prefix(start).map(str::to_owned);
+        Self { path: path.unwrap_or(self.path), ..self }
+    }
+}
+
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.path, self.message)

@@ -15,7 +15,7 @@ use crate::render::{Renderer, Settings};
 
 pub use atomic::{check_writable, write_atomically};
 pub use gif::write_gif;
-pub use glb::write_glb;
+pub use glb::{glb_bytes, write_glb};
 pub use html::{html, write_html};
 pub use png::write_png;
 

@@ -39,11 +39,18 @@ impl Defect {
 /// # Errors
 /// [`Error::Io`], or [`Error::Mesh`] for a file that is malformed, empty, too large or of another kind.
 pub fn read(path: &Path) -> Result<TriMesh, Error> {
-    let bytes = read_limited(path)?;
+    parse(&read_limited(path)?, path)
+}
+
+/// As [`read`], of the bytes of a file that is called so.
+///
+/// # Errors
+/// [`Error::Mesh`].
+pub fn parse(bytes: &[u8], path: &Path) -> Result<TriMesh, Error> {
     let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
     let mesh = match extension.to_ascii_lowercase().as_str() {
-        "obj" => obj::parse(&String::from_utf8_lossy(&bytes)),
-        "stl" => stl::parse(&bytes),
+        "obj" => obj::parse(&String::from_utf8_lossy(bytes)),
+        "stl" => stl::parse(bytes),
         other => Err(Defect::new(format!(
             "{other:?} is the extension of no mesh file that can be read: obj or stl"
         ))),

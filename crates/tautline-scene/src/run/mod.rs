@@ -15,9 +15,9 @@ use crate::document::limits;
 use crate::error::{Error, Problem};
 use crate::recording::Recording;
 use crate::render::Camera;
-use recorder::Recorder;
 use summary::Tally;
 
+pub use recorder::Recorder;
 pub use summary::{PhaseMilliseconds, RunSummary};
 
 /// How a scene is run.
@@ -85,7 +85,7 @@ impl Run {
         let step_count = (steps as u64).max(1);
         let frames = step_count / u64::from(scene.record_every) + 1;
         let recorder = if options.record {
-            let mut recorder = Recorder::new(&scene)?;
+            let mut recorder = Recorder::new(&scene.name, scene.frame_rate(), &scene.parts, &scene.world)?;
             let positions = frames.saturating_mul(recorder.positions_per_frame());
             if positions > limits::RECORDED_POSITIONS {
                 let most = limits::RECORDED_POSITIONS;

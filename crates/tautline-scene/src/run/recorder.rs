@@ -5,16 +5,18 @@ use tautline::{BodyHandle, World};
 
 use super::tears::Tears;
 use super::tubes::Tubes;
-use crate::build::{BuiltScene, Look, Part};
+use crate::build::{Look, Part};
 use crate::error::Error;
 use crate::recording::{Motion, Recording, Surface, Track};
 
-/// A recording in the making.
+/// A recording in the making. Bodies may come and go meanwhile: what comes is seen from the first frame on where it
+/// begins, what goes stays where it was last.
 #[derive(Debug, Clone)]
-pub(super) struct Recorder {
+pub struct Recorder {
     recording: Recording,
     /// What moves in each track.
     sources: Vec<Source>,
+    frames: u64,
 }
 
 #[derive(Debug, Clone)]
@@ -26,22 +28,44 @@ enum Source {
 }
 
 impl Recorder {
-    /// A recording without frames.
-    pub(super) fn new(scene: &BuiltScene) -> Result<Self, Error> {
-        let frame_rate = 1.0 / (scene.dt * scene.record_every as f32);
-        let mut recording = Recording { name: scene.name.clone(), frame_rate, tracks: Vec::new() };
-        let mut sources = Vec::new();
-        for part in &scene.parts {
-            let (track, source) = track_of(part, &scene.world)?;
-            recording.tracks.push(track);
-            sources.push(source);
+    /// A recording without frames, of these parts of a world.
+    ///
+    /// # Errors
+    /// [`Error::Engine`] for a part whose body is not in the world.
+    pub fn new<'a>(
+        name: &str,
+        frame_rate: f32,
+        parts: impl IntoIterator<Item = &'a Part>,
+        world: &World,
+    ) -> Result<Self, Error> {
+        let recording = Recording { name: name.to_owned(), frame_rate, tracks: Vec::new() };
+        let mut recorder = Self { recording, sources: Vec::new(), frames: 0 };
+        parts.into_iter().try_for_each(|part| recorder.add(part, world))?;
+        Ok(recorder)
+    }
+
+    /// Adds a part of the world.
+    ///
+    /// # Errors
+    /// [`Error::Engine`] if its body is not in the world.
+    pub fn add(&mut self, part: &Part, world: &World) -> Result<(), Error> {
+        let (mut track, mut source) = track_of(part, world)?;
+        for _ in 0..self.frames {
+            record_part(&mut track, &mut source, world)?;
         }
-        Ok(Self { recording, sources })
+        self.recording.tracks.push(track);
+        self.sources.push(source);
+        Ok(())
+    }
+
+    /// How many frames there are.
+    pub fn frame_count(&self) -> u64 {
+        self.frames
     }
 
     /// How much a frame takes, in positions: all vertices of what deforms, of which a rope drawn as a tube has more
     /// than particles, and about three for a pose.
-    pub(super) fn positions_per_frame(&self) -> u64 {
+    pub fn positions_per_frame(&self) -> u64 {
         let of = |track: &Track| match track.motion {
             Motion::Still => 0,
             Motion::Rigid(_) => 3,
@@ -51,25 +75,19 @@ impl Recorder {
     }
 
     /// Adds a frame.
-    pub(super) fn record(&mut self, world: &World) -> Result<(), Error> {
+    ///
+    /// # Errors
+    /// [`Error::Engine`] if the world is another one.
+    pub fn record(&mut self, world: &World) -> Result<(), Error> {
         for (track, source) in self.recording.tracks.iter_mut().zip(&mut self.sources) {
-            match (source, &mut track.motion) {
-                (Source::Rigid(body), Motion::Rigid(poses)) => poses.extend(world.body(*body)?.pose()),
-                (Source::Sheet(body, tears), Motion::Deforming(frames)) => {
-                    let sheet = world.body(*body)?;
-                    tears.note(sheet.triangles(), frames.len());
-                    frames.push(sheet.positions().to_vec());
-                }
-                (Source::Rope(body, tubes), Motion::Deforming(frames)) => {
-                    frames.push(tubes.positions(world.body(*body)?.positions()));
-                }
-                _ => {}
-            }
+            record_part(track, source, world)?;
         }
+        self.frames += 1;
         Ok(())
     }
 
-    pub(super) fn finish(mut self) -> Recording {
+    /// The recording.
+    pub fn finish(mut self) -> Recording {
         for (track, source) in self.recording.tracks.iter_mut().zip(self.sources) {
             if let Source::Sheet(_, tears) = source {
                 tears.apply(track);
@@ -77,6 +95,31 @@ impl Recorder {
         }
         self.recording
     }
+}
+
+/// Adds a frame to a track; the last one again if the body has been removed.
+fn record_part(track: &mut Track, source: &mut Source, world: &World) -> Result<(), Error> {
+    let body = match source {
+        Source::Still => return Ok(()),
+        Source::Rigid(body) | Source::Sheet(body, _) | Source::Rope(body, _) => world.body(*body),
+    };
+    match (source, &mut track.motion, body) {
+        (_, Motion::Rigid(poses), Err(_)) if !poses.is_empty() => poses.extend_from_within(poses.len() - 1..),
+        (_, Motion::Deforming(frames), Err(_)) if !frames.is_empty() => {
+            frames.extend_from_within(frames.len() - 1..);
+        }
+        (Source::Rigid(_), Motion::Rigid(poses), body) => poses.extend(body?.pose()),
+        (Source::Sheet(_, tears), Motion::Deforming(frames), body) => {
+            let sheet = body?;
+            tears.note(sheet.triangles(), frames.len());
+            frames.push(sheet.positions().to_vec());
+        }
+        (Source::Rope(_, tubes), Motion::Deforming(frames), body) => {
+            frames.push(tubes.positions(body?.positions()));
+        }
+        _ => {}
+    }
+    Ok(())
 }
 
 /// A part's track without frames, and what moves in it.
