@@ -51,23 +51,24 @@ export function picture(page) {
   });
 }
 
-/** Where the middle of a body is on the screen, px. */
-export function placeOf(page, find) {
-  return page.evaluate((find) => {
+/** Where the middle of the first movable body is, m, and on the screen, px. */
+export function placeOf(page) {
+  return page.evaluate(() => {
     const { stage, parts, frame } = window.playground;
-    const part = parts.find((part) => part.look === find);
-    const at = part.mesh
-      ? frame.poses.subarray(7 * part.index, 7 * part.index + 3)
-      : frame.positions.subarray(3 * part.firstParticle, 3 * part.firstParticle + 3);
+    const part = parts.find((part) => !part.fixed && part.look !== "wall");
+    const at = [0, 0, 0];
+    for (let k = 0; k < part.particleCount; k++) {
+      for (const axis of [0, 1, 2]) at[axis] += frame.positions[3 * (part.firstParticle + k) + axis] / part.particleCount;
+    }
     const point = stage.camera.position.clone().fromArray(at).project(stage.camera);
     const box = stage.canvas.getBoundingClientRect();
-    return { x: box.left + ((point.x + 1) / 2) * box.width, y: box.top + ((1 - point.y) / 2) * box.height, at: [...at] };
-  }, find);
+    return { at, x: box.left + ((point.x + 1) / 2) * box.width, y: box.top + ((1 - point.y) / 2) * box.height };
+  });
 }
 
 /** The message that is shown, once there is one. */
 export async function notice(page) {
   const element = page.locator(".notice").first();
-  await element.waitFor({ timeout: 10_000 });
+  await element.waitFor({ timeout: 20_000 });
   return element.innerText();
 }

@@ -10,6 +10,12 @@ import { el } from "../ui/dom";
 import { nameOf, pathOf } from "./json_path";
 import { type Named, type Schema, namesAt, openingOf, wordsAt } from "./schema";
 
+/** What is replaced. */
+interface Range {
+  from: number;
+  to: number;
+}
+
 /** Completes the names of fields, and the words that may stand in them. */
 export function completeFrom(schema: Schema): (context: CompletionContext) => CompletionResult | null {
   return (context) => {
@@ -18,22 +24,25 @@ export function completeFrom(schema: Schema): (context: CompletionContext) => Co
     const property = ancestor(node, "Property");
     const isName = node.name === "PropertyName" || node.name === "Object" || (node.name === "⚠" && node.parent?.name === "Object");
     const word = context.matchBefore(/"?[\w$-]*/);
-    const from = node.name === "PropertyName" || node.name === "String" ? node.from : (word?.from ?? pos);
+    const isWhole = node.name === "PropertyName" || node.name === "String";
+    const from = isWhole ? node.from : (word?.from ?? pos);
+    // A closing quote behind the cursor is replaced too.
+    const to = isWhole ? node.to : pos;
     if (!context.explicit && from === pos) return null;
-    if (isName) return names(schema, state, ancestor(node, "Object"), from, node);
-    if (property && !["Object", "Array"].includes(node.name)) return words(schema, [...pathOf(state, property), nameOf(state, property)], from);
+    if (isName) return names(schema, state, ancestor(node, "Object"), { from, to }, node);
+    if (property && !["Object", "Array"].includes(node.name)) return words(schema, [...pathOf(state, property), nameOf(state, property)], { from, to });
     return null;
   };
 }
 
-function names(schema: Schema, state: EditorState, object: SyntaxNode | undefined, from: number, node: SyntaxNode): CompletionResult | null {
+function names(schema: Schema, state: EditorState, object: SyntaxNode | undefined, range: Range, node: SyntaxNode): CompletionResult | null {
   if (!object) return null;
   const known = new Set(object.getChildren("Property").filter((child) => child.from !== node.parent?.from).map((child) => nameOf(state, child)));
   const hasColon = node.name === "PropertyName" && node.parent?.lastChild?.name !== "PropertyName";
   const options = namesAt(schema, pathOf(state, object))
     .filter(({ name }) => !known.has(name))
     .map((named) => option(schema, named, hasColon));
-  return options.length > 0 ? { from, options, validFor: /^"?[\w$-]*"?$/ } : null;
+  return options.length > 0 ? { ...range, options, validFor: /^"?[\w$-]*"?$/ } : null;
 }
 
 function option(schema: Schema, { name, description, schema: own }: Named, hasColon: boolean): Completion {
@@ -52,13 +61,13 @@ function option(schema: Schema, { name, description, schema: own }: Named, hasCo
   };
 }
 
-function words(schema: Schema, path: (string | number)[], from: number): CompletionResult | null {
+function words(schema: Schema, path: (string | number)[], range: Range): CompletionResult | null {
   const options = wordsAt(schema, path).map(({ word, description }) => ({
     label: JSON.stringify(word),
     info: () => el("div", {}, description),
     type: "enum",
   }));
-  return options.length > 0 ? { from, options, validFor: /^"?[\w-]*"?$/ } : null;
+  return options.length > 0 ? { ...range, options, validFor: /^"?[\w-]*"?$/ } : null;
 }
 
 function ancestor(node: SyntaxNode, name: string): SyntaxNode | undefined {

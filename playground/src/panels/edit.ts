@@ -69,6 +69,8 @@ export class EditPanel {
   /** Runs what has been typed, if nothing is wrong with it. */
   private async run(): Promise<void> {
     const text = this.editor?.text() ?? "";
+    // Another scene may have been opened since somebody typed.
+    if (text === this.playground.opened?.text) return;
     const problems = await this.playground.check(text).catch(() => []);
     if (text !== this.editor?.text()) return;
     this.mark(problems);
