@@ -3,6 +3,7 @@
 mod atomic;
 mod gif;
 mod glb;
+mod html;
 mod palette;
 mod png;
 
@@ -15,10 +16,11 @@ use crate::render::{Renderer, Settings};
 pub use atomic::{check_writable, write_atomically};
 pub use gif::write_gif;
 pub use glb::{glb_bytes, write_glb};
+pub use html::{html, write_html};
 pub use png::write_png;
 
 /// The extensions that [`write()`] knows.
-pub const FORMATS: &str = ".gif, .glb, .png";
+pub const FORMATS: &str = ".gif, .glb, .html, .png";
 
 /// A format that recordings are written in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,6 +29,8 @@ pub enum Format {
     Gif,
     /// Animated glTF.
     Glb,
+    /// A page that plays it.
+    Html,
     /// One picture.
     Png,
 }
@@ -41,6 +45,7 @@ impl Format {
         match extension.as_str() {
             "gif" => Ok(Self::Gif),
             "glb" => Ok(Self::Glb),
+            "html" => Ok(Self::Html),
             "png" => Ok(Self::Png),
             _ => Err(Error::UnsupportedFormat { path: path.to_owned(), supported: FORMATS }),
         }
@@ -64,12 +69,12 @@ impl Default for Options {
     }
 }
 
-/// Writes a recording in the format that the extension of `path` names: `.glb` (animated glTF), `.gif` or
-/// `.png` (one frame). `progress` is told (steps done, steps to do).
+/// Writes a recording in the format that the extension of `path` names: `.glb` (animated glTF), `.gif`,
+/// `.html` (a page that plays it) or `.png` (one frame). `progress` is told (steps done, steps to do).
 ///
 /// # Errors
 /// [`Error::UnsupportedFormat`] for another extension; otherwise those of [`write_glb`], [`write_gif`],
-/// [`Renderer::new`] and [`write_png`].
+/// [`write_html`], [`Renderer::new`] and [`write_png`].
 pub fn write(
     recording: &Recording,
     path: &Path,
@@ -79,6 +84,7 @@ pub fn write(
     match Format::of(path)? {
         Format::Gif => return write_gif(recording, path, options.picture, options.gif_frame_rate, progress),
         Format::Glb => write_glb(recording, path)?,
+        Format::Html => write_html(recording, options.picture.camera, path)?,
         Format::Png => {
             let last = recording.frame_count() - 1;
             let frame = options.png_frame.unwrap_or(last);
