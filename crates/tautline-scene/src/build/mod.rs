@@ -2,6 +2,7 @@
 
 mod attachment;
 mod body;
+mod by_hand;
 mod cloth;
 mod cue;
 mod joint;

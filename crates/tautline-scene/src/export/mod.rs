@@ -1,11 +1,17 @@
-//! Recordings out: pictures and animations.
+//! Recordings out: pictures, films, animations, meshes and arrays.
 
 mod atomic;
 mod gif;
 mod glb;
+mod joined;
+mod mp4;
+mod npz;
 mod palette;
+mod pc2;
 mod png;
+mod sequence;
 
+use std::ffi::OsStr;
 use std::path::Path;
 
 use crate::Error;
@@ -15,10 +21,14 @@ use crate::render::{Renderer, Settings};
 pub use atomic::{check_writable, write_atomically};
 pub use gif::write_gif;
 pub use glb::write_glb;
+pub use mp4::write_mp4;
+pub use npz::write_npz;
+pub use pc2::{mesh_path, write_pc2};
 pub use png::write_png;
+pub use sequence::{frame_path, write_obj, write_ply};
 
 /// The extensions that [`write()`] knows.
-pub const FORMATS: &str = ".gif, .glb, .png";
+pub const FORMATS: &str = ".gif, .glb, .mp4, .npz, .obj, .pc2, .ply, .png";
 
 /// A format that recordings are written in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,6 +37,16 @@ pub enum Format {
     Gif,
     /// Animated glTF.
     Glb,
+    /// A film, by ffmpeg.
+    Mp4,
+    /// NumPy's arrays.
+    Npz,
+    /// Wavefront OBJ, one file for each frame.
+    Obj,
+    /// A point cache, with its mesh as OBJ beside it.
+    Pc2,
+    /// Binary PLY, one file for each frame.
+    Ply,
     /// One picture.
     Png,
 }
@@ -41,6 +61,11 @@ impl Format {
         match extension.as_str() {
             "gif" => Ok(Self::Gif),
             "glb" => Ok(Self::Glb),
+            "mp4" => Ok(Self::Mp4),
+            "npz" => Ok(Self::Npz),
+            "obj" => Ok(Self::Obj),
+            "pc2" => Ok(Self::Pc2),
+            "ply" => Ok(Self::Ply),
             "png" => Ok(Self::Png),
             _ => Err(Error::UnsupportedFormat { path: path.to_owned(), supported: FORMATS }),
         }
@@ -64,12 +89,13 @@ impl Default for Options {
     }
 }
 
-/// Writes a recording in the format that the extension of `path` names: `.glb` (animated glTF), `.gif` or
-/// `.png` (one frame). `progress` is told (steps done, steps to do).
+/// Writes a recording in the format that the extension of `path` names: `.glb` (animated glTF), `.gif`, `.mp4` (by the
+/// ffmpeg that is found where programs are), `.png` (one frame), `.pc2` (and its mesh as `.obj`), `.npz`, or one `.obj` or
+/// `.ply` for each frame. `progress` is told (steps done, steps to do).
 ///
 /// # Errors
-/// [`Error::UnsupportedFormat`] for another extension; otherwise those of [`write_glb`], [`write_gif`],
-/// [`Renderer::new`] and [`write_png`].
+/// [`Error::UnsupportedFormat`] for another extension; otherwise those of [`write_glb`], [`write_gif`], [`write_mp4`],
+/// [`write_npz`], [`write_pc2`], [`write_obj`], [`Renderer::new`] and [`write_png`].
 pub fn write(
     recording: &Recording,
     path: &Path,
@@ -78,17 +104,26 @@ pub fn write(
 ) -> Result<(), Error> {
     match Format::of(path)? {
         Format::Gif => return write_gif(recording, path, options.picture, options.gif_frame_rate, progress),
-        Format::Glb => write_glb(recording, path)?,
-        Format::Png => {
-            let last = recording.frame_count() - 1;
-            let frame = options.png_frame.unwrap_or(last);
-            if frame > last {
-                let problem = format!("there is no frame {frame}: the last is {last}");
-                return Err(Error::Unsupported { option: "png_frame", problem });
-            }
-            write_png(&Renderer::new(recording, options.picture)?.frame(frame), path)?;
+        Format::Mp4 => {
+            return write_mp4(recording, path, options.picture, OsStr::new("ffmpeg"), progress);
         }
+        Format::Obj => return write_obj(recording, path, progress),
+        Format::Pc2 => return write_pc2(recording, path, progress),
+        Format::Ply => return write_ply(recording, path, progress),
+        Format::Glb => write_glb(recording, path)?,
+        Format::Npz => write_npz(recording, path)?,
+        Format::Png => write_frame(recording, path, options)?,
     }
     progress(1, 1);
     Ok(())
+}
+
+fn write_frame(recording: &Recording, path: &Path, options: &Options) -> Result<(), Error> {
+    let last = recording.frame_count() - 1;
+    let frame = options.png_frame.unwrap_or(last);
+    if frame > last {
+        let problem = format!("there is no frame {frame}: the last is {last}");
+        return Err(Error::Unsupported { option: "png_frame", problem });
+    }
+    write_png(&Renderer::new(recording, options.picture)?.frame(frame), path)
 }

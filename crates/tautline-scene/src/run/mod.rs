@@ -15,9 +15,9 @@ use crate::document::limits;
 use crate::error::{Error, Problem};
 use crate::recording::Recording;
 use crate::render::Camera;
-use recorder::Recorder;
 use summary::Tally;
 
+pub use recorder::Recorder;
 pub use summary::{PhaseMilliseconds, RunSummary};
 
 /// How a scene is run.

@@ -9,9 +9,9 @@ use crate::build::{BuiltScene, Look, Part};
 use crate::error::Error;
 use crate::recording::{Motion, Recording, Surface, Track};
 
-/// A recording in the making.
+/// A recording in the making: of a [`Run`](super::Run), or of a scene that is stepped by other means.
 #[derive(Debug, Clone)]
-pub(super) struct Recorder {
+pub struct Recorder {
     recording: Recording,
     /// What moves in each track.
     sources: Vec<Source>,
@@ -26,8 +26,11 @@ enum Source {
 }
 
 impl Recorder {
-    /// A recording without frames.
-    pub(super) fn new(scene: &BuiltScene) -> Result<Self, Error> {
+    /// A recording without frames, of the scene's parts as they are now.
+    ///
+    /// # Errors
+    /// [`Error::Engine`] if bodies of the scene have been removed.
+    pub fn new(scene: &BuiltScene) -> Result<Self, Error> {
         let frame_rate = 1.0 / (scene.dt * scene.record_every as f32);
         let mut recording = Recording { name: scene.name.clone(), frame_rate, tracks: Vec::new() };
         let mut sources = Vec::new();
@@ -41,7 +44,7 @@ impl Recorder {
 
     /// How much a frame takes, in positions: all vertices of what deforms, of which a rope drawn as a tube has more
     /// than particles, and about three for a pose.
-    pub(super) fn positions_per_frame(&self) -> u64 {
+    pub fn positions_per_frame(&self) -> u64 {
         let of = |track: &Track| match track.motion {
             Motion::Still => 0,
             Motion::Rigid(_) => 3,
@@ -51,7 +54,10 @@ impl Recorder {
     }
 
     /// Adds a frame.
-    pub(super) fn record(&mut self, world: &World) -> Result<(), Error> {
+    ///
+    /// # Errors
+    /// As [`Recorder::new`].
+    pub fn record(&mut self, world: &World) -> Result<(), Error> {
         for (track, source) in self.recording.tracks.iter_mut().zip(&mut self.sources) {
             match (source, &mut track.motion) {
                 (Source::Rigid(body), Motion::Rigid(poses)) => poses.extend(world.body(*body)?.pose()),
@@ -69,7 +75,8 @@ impl Recorder {
         Ok(())
     }
 
-    pub(super) fn finish(mut self) -> Recording {
+    /// What was recorded.
+    pub fn finish(mut self) -> Recording {
         for (track, source) in self.recording.tracks.iter_mut().zip(self.sources) {
             if let Source::Sheet(_, tears) = source {
                 tears.apply(track);
