@@ -212,6 +212,23 @@ impl Recording {
         Ok(py.detach(|| threads::run(write))?)
     }
 
+    /// Writes it in the format that the extension names.
+    #[pyo3(signature = (path, **options))]
+    fn save(slf: &Bound<'_, Self>, path: PathBuf, options: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
+        slf.py().import("tautline._save")?.call_method("save", (slf, path), options)?;
+        Ok(())
+    }
+
+    /// Energy, contacts and strain over time, as a figure of Matplotlib.
+    fn plot<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("tautline._plot")?.call_method1("plot", (slf,))
+    }
+
+    /// What a notebook shows.
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("tautline._show")?.call_method1("html", (slf,))
+    }
+
     fn __repr__(&self) -> String {
         let frames = self.frame_count();
         format!("<tautline.Recording {:?}: {} steps, {frames} frames>", self.name, self.steps)

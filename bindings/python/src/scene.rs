@@ -85,6 +85,17 @@ impl Scene {
         Ok(World::around(py.detach(|| self.0.build())?))
     }
 
+    /// Makes its world and runs that: see `World.run`.
+    #[pyo3(signature = (seconds=None, **options))]
+    fn run<'py>(
+        &self,
+        py: Python<'py>,
+        seconds: Option<f32>,
+        options: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        Bound::new(py, self.build(py)?)?.call_method("run", (seconds,), options)
+    }
+
     /// Pickled as JSON.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> Outcome<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let make = slf.get_type().getattr("from_json")?;

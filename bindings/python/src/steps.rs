@@ -115,6 +115,18 @@ impl World {
         Ok(tape.finish(world, py))
     }
 
+    /// What it looks like now: a recording of one frame.
+    fn look_now(slf: &Bound<'_, Self>) -> Outcome<Recording> {
+        let (py, world) = (slf.py(), slf.get());
+        let (dt, every) = world.look(py, |scene| (scene.dt, scene.record_every));
+        Ok(Tape::new(world, py, &Plan { dt, steps: 0, every }, true)?.finish(world, py))
+    }
+
+    /// What a notebook shows.
+    fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("tautline._show")?.call_method1("html", (Self::look_now(slf)?,))
+    }
+
     /// Which bodies touched in the last step, out of the pairs of which one reports its contacts.
     #[getter]
     fn contact_events(slf: &Bound<'_, Self>) -> Outcome<Vec<ContactEvent>> {
