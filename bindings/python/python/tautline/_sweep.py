@@ -46,10 +46,16 @@ class _Job:
     save: Optional[str]
 
     def key(self) -> str:
-        """The same for the same run, in any process: what its file is called."""
-        scene = self.scene if isinstance(self.scene, str) else f"{self.scene.__module__}.{self.scene.__qualname__}"
-        told = [scene, self.parameters, self.seconds, sorted(self.metrics), self.save]
+        """The same for the same run, in any process: what its file is called. Functions are told apart by their names."""
+        scene = self.scene if isinstance(self.scene, str) else _name(self.scene)
+        metrics = {name: metric if isinstance(metric, str) else _name(metric) for name, metric in self.metrics.items()}
+        told = [scene, self.parameters, self.seconds, metrics, self.save]
         return hashlib.sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()[:16]
+
+
+def _name(function: Callable[..., Any]) -> str:
+    named = function if hasattr(function, "__qualname__") else type(function)
+    return f"{named.__module__}.{named.__qualname__}"
 
 
 def _run(job: _Job) -> Tuple[Row, Optional[bytes]]:
@@ -215,7 +221,8 @@ def _run_all(
         return
     if executor is not None:
         assert isinstance(executor, Executor)
-        _gather(jobs, executor, finish, dict.fromkeys((i for i, _ in jobs), 0))
+        for i, _ in _gather(jobs, executor, finish, dict.fromkeys((i for i, _ in jobs), 0)):
+            finish(i, {"error": "the executor is broken: call again with a new one"}, None)
         return
     # Processes of our own: where one dies, all others of the pool are lost with it, and a new pool takes over.
     tries = dict.fromkeys((i for i, _ in jobs), 0)
@@ -263,11 +270,6 @@ def _gather(
             else:
                 tries[i] += 1
                 submit(i, job)
-    own = isinstance(executor, ProcessPoolExecutor)
-    if lost and not own:
-        for i, _ in lost:
-            finish(i, {"error": "the executor is broken: call again with a new one"}, None)
-        return []
     return lost
 
 
