@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use crate::command::{cargo, run as run_command};
 use crate::project::Project;
-use crate::{hashes, readme, setup, tidy};
+use crate::{hashes, python, readme, setup, tidy};
 
 /// One thing that must pass.
 pub(crate) struct Step {
@@ -34,6 +34,11 @@ pub(crate) const STEPS: &[Step] = &[
     Step { name: "hashes", about: "debug, release, 1 and 2 threads: the same bits", check: hashes::hashes },
     Step { name: "examples", about: "each runs and what it asserts holds", check: readme::examples },
     Step { name: "readme", about: "its commands, its scene and its program", check: readme::readme },
+    Step {
+        name: "python",
+        about: "the package installs, its tests pass, its types hold",
+        check: python::python,
+    },
     Step { name: "miri", about: "tests of unsafe code, if there is any", check: setup::miri },
 ];
 

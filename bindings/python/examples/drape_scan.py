@@ -27,7 +27,7 @@ positions, triangles = tl.read_mesh(sys.argv[2]) if len(sys.argv) > 2 else bould
 positions = positions - [0, positions[:, 1].min(), 0]  # It stands on the floor.
 top, width = positions[:, 1].max(), np.ptp(positions, axis=0).max()
 
-world = tl.World()
+world = tl.World(name="drape")
 world.add(tl.HalfSpace(), name="floor")
 world.add(tl.RigidBody(tl.Shape.triangle_mesh(positions, triangles), motion="fixed"), name="scan")
 sheet = tl.Grid(40, 40, 2 * width, 2 * width)

@@ -12,7 +12,7 @@ import tautline as tl
 
 folder = Path(sys.argv[1] if len(sys.argv) > 1 else "out")
 folder.mkdir(parents=True, exist_ok=True)
-world = tl.World(tl.Settings(wind=(6, 0, 0.5)))
+world = tl.World(tl.Settings(wind=(6, 0, 0.5)), name="flag")
 grid = tl.Grid(30, 20, 1.5, 1.0)
 pole = [row * grid.columns for row in range(grid.rows)]
 upright = (np.sqrt(0.5), 0, 0, np.sqrt(0.5))

@@ -44,8 +44,12 @@ impl Addition {
     }
 }
 
-/// Everything behind a plane.
-#[pyclass(frozen, module = "tautline._engine")]
+/// Everything behind a plane: a floor, unless told otherwise.
+///
+/// Args:
+///     normal: Out of the solid; (0, 1, 0) if absent.
+///     offset: Of the plane from the origin along the normal, in m.
+#[pyclass(frozen, module = "tautline")]
 pub(crate) struct HalfSpace(tautline::HalfSpace);
 
 #[pymethods]
@@ -58,8 +62,26 @@ impl HalfSpace {
     }
 }
 
-/// A rigid body: a shape, how heavy it is, where it starts and how it moves.
-#[pyclass(frozen, module = "tautline._engine")]
+/// A rigid body to be added to a world.
+///
+/// Args:
+///     shape: What it is.
+///     position: Of the origin of the shape's frame, in m.
+///     rotation: From the shape's frame to the world: a quaternion x, y, z, w.
+///     velocity: Of the centre of mass, in m/s.
+///     angular_velocity: In rad/s, in the world's frame.
+///     mass: In kg.
+///     density: In kg/m³, instead of a mass; 1000 if both are absent.
+///     friction: Coulomb's coefficient.
+///     restitution: Speed apart over speed together of a collision, 0 to 1.
+///     rolling_friction: How far, in m, the normal force acts in front of the contact when it rolls.
+///     motion: What moves it: forces, its velocity alone, or nothing.
+///     gravity_scale: How many times the world's gravity acts on it.
+///     damping: Rates at which its motion and its rotation die out, in 1/s; (0, 0) if absent.
+///     groups: Two bit masks, memberships and filter; all if absent.
+///     can_sleep: Whether it is put to sleep when it rests.
+///     report_contacts: Whether its contacts are in ``World.contact_events``.
+#[pyclass(frozen, module = "tautline")]
 pub(crate) struct RigidBody {
     body: tautline::RigidBody,
     look: Look,
@@ -144,8 +166,9 @@ pub(crate) fn motion_of(name: &str) -> Outcome<Motion> {
     }
 }
 
-/// A level rectangle about the origin of `columns` × `rows` particles; particle `row * columns + column`.
-#[pyclass(frozen, module = "tautline._engine")]
+/// A level rectangle about the origin, ``width`` along x and ``depth`` along z (m), of ``columns`` × ``rows`` particles;
+/// particle ``row * columns + column``. For ``Cloth``.
+#[pyclass(frozen, module = "tautline")]
 pub(crate) struct Grid {
     #[pyo3(get)]
     columns: u32,
@@ -175,8 +198,30 @@ impl Grid {
     }
 }
 
-/// A sheet.
-#[pyclass(frozen, module = "tautline._engine")]
+/// A sheet to be added to a world.
+///
+/// Args:
+///     surface: A ``Grid``, or a mesh as (positions (n, 3) in m, triangles (m, 3)).
+///     position: Where the surface's origin is put, in m.
+///     rotation: About the surface's origin: a quaternion x, y, z, w.
+///     velocity: Of all particles, in m/s.
+///     mass: In kg.
+///     density: In kg/m², instead of a mass.
+///     friction: Coulomb's coefficient.
+///     thickness: How far from solids it is kept, in m.
+///     self_collision: Whether it collides with itself.
+///     bending_stiffness: Flexural rigidity, in N m.
+///     compliance: Strain per tension, in m/N; it does not stretch if absent.
+///     shear_compliance: Shear angle per force along a width, in m/N.
+///     strain_limit: The most that it stretches, as a share.
+///     drag: Coefficient of the air's resistance, about 1.2 for a plate.
+///     lift: Coefficient of the air's lift.
+///     pressure: Of the gas in a closed surface, over the surroundings, in Pa.
+///     tear_at: The strain at which it tears.
+///     creep: Strain beyond which it gets longer for good, and how fast, in 1/s.
+///     pins: Particles that stay where they start.
+///     seams: Pairs of particles that are sewn together.
+#[pyclass(frozen, module = "tautline")]
 pub(crate) struct Cloth(tautline::Cloth);
 
 #[pymethods]
@@ -261,8 +306,22 @@ fn mesh_of(field: &str, given: &Bound<'_, PyAny>, other: &str) -> Outcome<TriMes
     args::mesh(&positions, &triangles)
 }
 
-/// A rope through points, or a net.
-#[pyclass(frozen, module = "tautline._engine")]
+/// A rope, or a net, to be added to a world.
+///
+/// Args:
+///     points: Its particles (n, 3), in m.
+///     segments: Of a net: between which points, (m, 2).
+///     length: At rest, in m, if it is not the length it is laid out at.
+///     velocity: Of all particles, in m/s.
+///     mass: In kg.
+///     radius: In m.
+///     friction: Coulomb's coefficient.
+///     self_collision: Whether it collides with itself.
+///     bending_stiffness: E I, in N m².
+///     compliance: Strain per tension, in 1/N; it does not stretch if absent.
+///     least_angle: The least angle at any inner particle, in rad, 0 to π.
+///     pins: Particles that stay where they start.
+#[pyclass(frozen, module = "tautline")]
 pub(crate) struct Rope {
     rope: tautline::Rope,
     radius: f32,
@@ -308,8 +367,8 @@ impl Rope {
     }
 }
 
-/// A box of so many cells along each axis, for a soft solid.
-#[pyclass(frozen, module = "tautline._engine")]
+/// A box from ``-half_extents`` to ``half_extents`` (m) of so many cells along each axis. For ``SoftSolid``.
+#[pyclass(frozen, module = "tautline")]
 pub(crate) struct Lattice {
     half_extents: V3,
     cells: [u32; 3],
@@ -323,8 +382,23 @@ impl Lattice {
     }
 }
 
-/// A soft solid: a jelly, a tyre, a sponge.
-#[pyclass(frozen, module = "tautline._engine")]
+/// A soft solid to be added to a world: a jelly, a tyre, a sponge.
+///
+/// Args:
+///     volume: A ``Lattice``, or a closed mesh as (positions (n, 3) in m, triangles (m, 3)).
+///     position: Where the origin of its shape is put, in m.
+///     rotation: About that: a quaternion x, y, z, w.
+///     velocity: In m/s.
+///     angular_velocity: In rad/s.
+///     density: In kg/m³.
+///     mass: In kg, instead of a density.
+///     young_modulus: In Pa.
+///     poisson_ratio: 0 to 0.49.
+///     friction: Coulomb's coefficient.
+///     thickness: How far from solids its particles are kept, in m.
+///     self_collision: Whether it collides with itself.
+///     pins: Particles that stay where they start.
+#[pyclass(frozen, module = "tautline")]
 pub(crate) struct SoftSolid(tautline::SoftSolid);
 
 #[pymethods]

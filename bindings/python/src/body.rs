@@ -13,8 +13,8 @@ use crate::errors::{Failure, Outcome};
 use crate::views;
 use crate::world::World;
 
-/// A body of a world.
-#[pyclass(frozen, module = "tautline._engine")]
+/// A body of a world. It goes on naming that body whatever else comes and goes; once removed, ``StaleHandleError``.
+#[pyclass(frozen, module = "tautline")]
 pub(crate) struct Body {
     pub(crate) world: Py<World>,
     pub(crate) handle: BodyHandle,
@@ -126,7 +126,7 @@ impl Body {
         self.change(py, |world, body| world.set_velocity(body, velocity.0))
     }
 
-    /// In rad/s, in the world's frame.
+    /// Of a rigid body, in rad/s, in the world's frame.
     #[getter]
     fn angular_velocity(&self, py: Python<'_>) -> Outcome<[f32; 3]> {
         self.view(py, |body| body.angular_velocity().to_array())
@@ -148,7 +148,7 @@ impl Body {
         self.view(py, |body| body.mass())
     }
 
-    /// About the centre of mass, in the world's frame, in kg m²: three columns.
+    /// Of a rigid body about its centre of mass, in the world's frame, in kg m²: three columns.
     #[getter]
     fn inertia(&self, py: Python<'_>) -> Outcome<[[f32; 3]; 3]> {
         self.view(py, |body| body.inertia().to_cols_array_2d())
@@ -160,7 +160,8 @@ impl Body {
         self.view(py, |body| body.volume().zip(body.pressure()))
     }
 
-    /// Positions of its particles, in m: a read-only view (n, 3), without a copy.
+    /// Positions of its particles, in m: a read-only view (n, 3), see ``World.positions``. Of a rigid body these are the four
+    /// that it is made of: see ``surface_positions``.
     #[getter]
     fn positions<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyArray2<f32>>> {
         let world = self.world.bind(py);
@@ -168,14 +169,14 @@ impl Body {
         Ok(views::of_vectors(world, &sight)?)
     }
 
-    /// Puts its particles somewhere, without a velocity: float32, C-contiguous, (n, 3).
+    /// Puts the particles of a cloth, rope or soft solid somewhere (m), without a velocity: float32, C-contiguous, (n, 3).
     fn set_positions(&self, py: Python<'_>, positions: &Bound<'_, PyAny>) -> Outcome<()> {
         let count = self.view(py, |body| body.positions().len())?;
         let positions = args::exact_points("positions", positions, count)?;
         self.change(py, |world, body| world.set_particle_positions(body, &positions))
     }
 
-    /// Inverse masses of its particles, in 1/kg, 0 = pinned: a read-only view (n,), without a copy.
+    /// Of its particles, in 1/kg, 0 = pinned: a read-only view (n,), see ``World.positions``.
     #[getter]
     fn inverse_masses<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyArray1<f32>>> {
         let world = self.world.bind(py);
@@ -184,7 +185,7 @@ impl Body {
         Ok(views::of_numbers(world, &sight)?)
     }
 
-    /// Velocities of its particles, in m/s: (n, 3).
+    /// Of its particles, in m/s: (n, 3).
     #[getter]
     fn particle_velocities<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyArray2<f32>>> {
         let velocities = self.view(py, |body| {
@@ -236,7 +237,7 @@ impl Body {
         })
     }
 
-    /// During the next step, in N m, in the world's frame.
+    /// On a rigid body during the next step, in N m, in the world's frame.
     fn apply_torque(&self, py: Python<'_>, torque: V3) -> Outcome<()> {
         self.change(py, |world, body| world.apply_torque(body, torque.0))
     }
@@ -281,7 +282,7 @@ impl Body {
         self.change(py, |world, body| world.wake(body))
     }
 
-    /// Of all segments of a rope together, at rest, in m.
+    /// Of all segments of a rope together, at rest, in m; set, it is wound in or out.
     #[getter]
     fn rope_length(&self, py: Python<'_>) -> Outcome<f32> {
         let length = self.world.get().look(py, |scene| scene.world.rope_length(self.handle));

@@ -60,7 +60,18 @@ impl World {
 #[pymethods]
 #[allow(clippy::too_many_arguments)] // Keywords, in Python.
 impl World {
-    /// Two points stay together.
+    /// Keeps a point of a body together with one of another, or of the world.
+    ///
+    /// Args:
+    ///     body: What is held.
+    ///     base: What it is held to; the world if absent.
+    ///     anchor: Where, in the world, in m; the body's centre of mass if absent.
+    ///     axis: Of swing and twist, in the world.
+    ///     cone: The most that the axis swings, in rad.
+    ///     twist: Least and greatest turn about the axis, in rad.
+    ///     compliance: In m/N.
+    ///     break_force: In N.
+    ///     collide_connected: Whether the two collide.
     #[pyo3(signature = (body, base=None, *, anchor=None, axis=None, cone=None, twist=None, compliance=0.0,
         break_force=None, collide_connected=false))]
     fn add_ball_joint(
@@ -90,7 +101,7 @@ impl World {
         Self::join(slf, joint)
     }
 
-    /// Two points and an axis stay together.
+    /// Keeps two points and an axis together; limits in rad, the motor's speed (rad/s) and greatest torque (N m).
     #[pyo3(signature = (body, base=None, *, axis, anchor=None, limits=None, motor=None, compliance=0.0,
         angular_compliance=0.0, break_force=None, break_torque=None, collide_connected=false))]
     fn add_hinge_joint(
@@ -120,7 +131,7 @@ impl World {
         Self::join(slf, joint)
     }
 
-    /// Nothing moves.
+    /// Lets nothing move.
     #[pyo3(signature = (body, base=None, *, anchor=None, compliance=0.0, angular_compliance=0.0, break_force=None,
         break_torque=None, collide_connected=false))]
     fn add_fixed_joint(
@@ -141,7 +152,7 @@ impl World {
         Self::join(slf, joint)
     }
 
-    /// Only a shift along an axis is free.
+    /// Leaves a shift along an axis free; limits in m, the motor's speed (m/s) and greatest force (N).
     #[pyo3(signature = (body, base=None, *, axis, anchor=None, limits=None, motor=None, compliance=0.0,
         angular_compliance=0.0, break_force=None, break_torque=None, collide_connected=false))]
     fn add_slider_joint(
@@ -171,7 +182,8 @@ impl World {
         Self::join(slf, joint)
     }
 
-    /// Two points keep a distance, or are held near it by a spring.
+    /// Keeps two points (in the world, m) at a length, or in a range of lengths (m), or near one by a spring of a frequency
+    /// (Hz) and a damping ratio.
     #[pyo3(signature = (body, base=None, *, anchors=None, length=None, range=None, spring=None, compliance=0.0,
         break_force=None, collide_connected=false))]
     fn add_distance_joint(
@@ -229,7 +241,7 @@ impl World {
         Ok(Attachment { world: slf.clone().unbind(), handle })
     }
 
-    /// Picks a body up at a point (m), to lead it about.
+    /// Picks a body up at a point (m), to lead it about by a soft stick.
     #[pyo3(signature = (body, point, *, frequency=8.0, max_acceleration=500.0))]
     fn grab(
         slf: &Bound<'_, Self>,
@@ -246,7 +258,7 @@ impl World {
 }
 
 /// A joint of a world.
-#[pyclass(frozen, module = "tautline._engine")]
+#[pyclass(frozen, module = "tautline")]
 pub(crate) struct Joint {
     world: Py<World>,
     handle: JointHandle,
@@ -306,14 +318,14 @@ impl Joint {
         self.view(py, |joint| joint.is_broken())
     }
 
-    /// (speed, greatest torque or force), or none.
+    /// Speed (rad/s or m/s) and greatest torque (N m) or force (N); None: no motor.
     #[pyo3(signature = (motor))]
     fn set_motor(&self, py: Python<'_>, motor: Option<(f32, f32)>) -> Outcome<()> {
         let motor = motor.map(|(speed, strength)| Motor { speed, strength });
         self.world.get().change(py, |world| world.set_motor(self.handle, motor))
     }
 
-    /// (low, high), or none.
+    /// Least and greatest angle (rad) or shift (m); None: no limits.
     #[pyo3(signature = (limits))]
     fn set_limits(&self, py: Python<'_>, limits: Option<(f32, f32)>) -> Outcome<()> {
         let limits = limits.map(|(low, high)| [low, high]);
@@ -326,7 +338,7 @@ impl Joint {
 }
 
 /// A point of a body, or of the world, where an attachment holds it.
-#[pyclass(frozen, module = "tautline._engine")]
+#[pyclass(frozen, module = "tautline")]
 pub(crate) struct Anchor {
     anchor: tautline::Anchor,
     world: Option<Py<World>>,
@@ -352,11 +364,13 @@ impl Anchor {
         Self::on(&body, py, tautline::Anchor::particle(body.handle, particle))
     }
 
+    /// A point of a triangle of a cloth, by its barycentric weights.
     #[staticmethod]
     fn triangle(py: Python<'_>, body: PyRef<'_, Body>, triangle: u32, weights: [f32; 3]) -> Self {
         Self::on(&body, py, tautline::Anchor::triangle(body.handle, triangle, weights))
     }
 
+    /// A point of a segment of a rope: 0 where the segment begins, 1 where it ends.
     #[staticmethod]
     fn segment(py: Python<'_>, body: PyRef<'_, Body>, segment: u32, fraction: f32) -> Self {
         Self::on(&body, py, tautline::Anchor::segment(body.handle, segment, fraction))
@@ -376,7 +390,7 @@ impl Anchor {
 }
 
 /// An attachment of a world.
-#[pyclass(frozen, module = "tautline._engine")]
+#[pyclass(frozen, module = "tautline")]
 pub(crate) struct Attachment {
     world: Py<World>,
     handle: AttachmentHandle,
@@ -384,7 +398,7 @@ pub(crate) struct Attachment {
 
 #[pymethods]
 impl Attachment {
-    /// Mean of the last step, on the first end, in N.
+    /// On the first end, mean of the last step, in N.
     #[getter]
     fn force(&self, py: Python<'_>) -> Outcome<[f32; 3]> {
         let view = |world: &tautline::World| Ok(world.attachment(self.handle)?.force().to_array());
@@ -405,7 +419,7 @@ impl Attachment {
 }
 
 /// A body that is held at a point.
-#[pyclass(frozen, module = "tautline._engine")]
+#[pyclass(frozen, module = "tautline")]
 pub(crate) struct Grab {
     world: Py<World>,
     handle: GrabHandle,

@@ -11,14 +11,14 @@ use crate::shape::Shape;
 use crate::world::World;
 
 /// Where a query met a body.
-#[pyclass(frozen, get_all, module = "tautline._engine")]
+#[pyclass(frozen, get_all, module = "tautline")]
 pub(crate) struct Hit {
     body: Py<Body>,
     /// On the body's surface, in m.
     point: [f32; 3],
     /// Unit, out of the body.
     normal: [f32; 3],
-    /// From the ray's origin or the point asked for, in m; of a moving shape, how much of its way it has gone.
+    /// In m; of a moving shape, how much of its way it has gone.
     distance: f32,
 }
 
@@ -52,7 +52,7 @@ fn filter(
 #[pymethods]
 #[allow(clippy::too_many_arguments)] // Keywords, in Python.
 impl World {
-    /// The first body that a ray enters.
+    /// The first body that a ray enters, up to the distance ``max`` (m).
     #[pyo3(signature = (origin, direction, max=1e6, *, exclude=None, fixed=true, movable=true, groups=None))]
     fn ray_cast(
         slf: &Bound<'_, Self>,
@@ -89,7 +89,8 @@ impl World {
         Ok(told.collect::<PyResult<_>>()?)
     }
 
-    /// The first body that a shape touches which moves by a translation without turning.
+    /// The first body that a shape touches which moves by ``translation`` (m) without turning; the hit's ``distance`` is how
+    /// much of its way it has gone, 0 to 1.
     #[pyo3(signature = (shape, position, translation, *, rotation=None, exclude=None, fixed=true, movable=true,
         groups=None))]
     fn shape_cast(
@@ -131,7 +132,7 @@ impl World {
         Ok(found.into_iter().map(|handle| Body::new(slf, handle)).collect())
     }
 
-    /// The body whose surface is closest to a point.
+    /// The body whose surface is closest to a point (m); the hit's ``distance`` is below 0 in a body.
     #[pyo3(signature = (point, max=1e6, *, exclude=None, fixed=true, movable=true, groups=None))]
     fn closest_point(
         slf: &Bound<'_, Self>,
@@ -149,15 +150,18 @@ impl World {
 }
 
 /// The signed distance of two convex hulls, and where it is.
-#[pyclass(frozen, get_all, module = "tautline._engine")]
+#[pyclass(frozen, get_all, module = "tautline")]
 pub(crate) struct Distance {
     /// In m: above 0 the gap, below 0 the depth.
     distance: f32,
     /// Unit, from A to B.
     normal: [f32; 3],
+    /// The witness point on A, in m.
     point_a: [f32; 3],
+    /// The witness point on B, in m.
     point_b: [f32; 3],
     iterations: u32,
+    /// Whether the answer is certain within rounding.
     converged: bool,
 }
 

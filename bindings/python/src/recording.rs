@@ -38,8 +38,8 @@ impl Series {
     }
 }
 
-/// What a run looked like.
-#[pyclass(frozen, module = "tautline._engine")]
+/// What a run looked like, and its figures over time.
+#[pyclass(frozen, module = "tautline")]
 pub(crate) struct Recording {
     motion: Option<tautline_scene::recording::Recording>,
     series: Series,
@@ -90,19 +90,19 @@ impl Recording {
         &self.name
     }
 
-    /// The hash of the world at the end of the run.
+    /// Of the world at the end of the run.
     #[getter]
     fn state_hash(&self) -> &str {
         &self.state_hash
     }
 
-    /// How many steps the run took.
+    /// How many the run took.
     #[getter]
     fn steps(&self) -> u64 {
         self.steps
     }
 
-    /// What the engine took for all of them, in s.
+    /// What the engine took for all steps, in s.
     #[getter]
     fn engine_seconds(&self) -> f64 {
         self.series.engine_seconds
@@ -145,7 +145,7 @@ impl Recording {
         Ok(PyArray1::from_vec(py, flat).reshape([frames, track.mesh.positions.len(), 3])?)
     }
 
-    /// Position (m) and quaternion x, y, z, w of a rigid track: (frames, 7); none of other tracks.
+    /// Position (m) and quaternion x, y, z, w of a rigid track: (frames, 7); None of other tracks.
     fn poses<'py>(&self, py: Python<'py>, track: &str) -> Outcome<Option<Bound<'py, PyArray2<f32>>>> {
         let Motion::Rigid(poses) = &self.track(track)?.motion else { return Ok(None) };
         let flat: Vec<f32> = poses
@@ -165,13 +165,13 @@ impl Recording {
         arrays::corners(py, &self.track(track)?.mesh.triangles)
     }
 
-    /// The colour of a track, sRGB.
+    /// sRGB, 0 to 255.
     fn color(&self, track: &str) -> Outcome<(u8, u8, u8)> {
         let [red, green, blue] = self.track(track)?.color;
         Ok((red, green, blue))
     }
 
-    /// Whether a track is a sheet, seen from both sides.
+    /// Whether a track is seen from both sides.
     fn is_sheet(&self, track: &str) -> Outcome<bool> {
         Ok(self.track(track)?.surface == tautline_scene::recording::Surface::Sheet)
     }
@@ -213,6 +213,14 @@ impl Recording {
     }
 
     /// Writes it in the format that the extension names.
+    ///
+    /// Args:
+    ///     path: ``.gif``, ``.mp4``, ``.png``: pictures; ``.glb``, ``.usd``, ``.usda``, ``.usdc``: scenes with motion;
+    ///         ``.pc2``: a point cache, with its mesh as ``.obj`` beside it; ``.obj``, ``.ply``: a mesh for each frame;
+    ///         ``.npz``: arrays.
+    ///     size: Width and height of pictures, in pixels; (640, 480) if absent.
+    ///     frame: Of a ``.png``; the last if absent.
+    ///     frame_rate: The most pictures a second in a ``.gif``, 1 to 50.
     #[pyo3(signature = (path, **options))]
     fn save(slf: &Bound<'_, Self>, path: PathBuf, options: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
         slf.py().import("tautline._save")?.call_method("save", (slf, path), options)?;

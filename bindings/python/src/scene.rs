@@ -12,8 +12,11 @@ use crate::arrays;
 use crate::errors::{Failure, Outcome};
 use crate::world::World;
 
-/// A scene document.
-#[pyclass(frozen, module = "tautline._engine")]
+/// A scene document, whose values have been judged.
+///
+/// Args:
+///     document: A dict as the document's JSON has it; NumPy's numbers and arrays will do.
+#[pyclass(frozen, module = "tautline")]
 pub(crate) struct Scene(document::Scene);
 
 impl Scene {
@@ -45,7 +48,7 @@ impl Scene {
         Ok(Self(py.detach(|| load(&path))?))
     }
 
-    /// A named scene, with its parameters as keywords.
+    /// A named scene, see ``scenes``, with its parameters.
     #[staticmethod]
     #[pyo3(signature = (name, /, **parameters))]
     fn named(name: &str, parameters: Option<&Bound<'_, PyDict>>) -> Outcome<Self> {
@@ -75,7 +78,7 @@ impl Scene {
         self.json()
     }
 
-    /// The document as a dict, to be edited and given to `Scene`.
+    /// The document as a dict, to be edited and given to ``Scene``.
     fn to_dict<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyAny>> {
         Ok(py.import("json")?.call_method1("loads", (self.json()?,))?)
     }
@@ -85,7 +88,7 @@ impl Scene {
         Ok(World::around(py.detach(|| self.0.build())?))
     }
 
-    /// Makes its world and runs that: see `World.run`.
+    /// Makes its world and runs that: see ``World.run``.
     #[pyo3(signature = (seconds=None, **options))]
     fn run<'py>(
         &self,
@@ -111,7 +114,7 @@ impl Scene {
     }
 }
 
-/// The named scenes: dicts of name, description and parameters.
+/// The named scenes.
 #[pyfunction]
 pub(crate) fn scenes(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
     let describe = |scene: &registry::NamedScene| {
@@ -135,7 +138,7 @@ pub(crate) fn scenes(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
 
 type MeshArrays<'py> = (Bound<'py, PyArray2<f32>>, Bound<'py, PyArray2<u32>>);
 
-/// The positions (n, 3) and triangles (m, 3) of a mesh file.
+/// The positions (n, 3) in m and triangles (m, 3) of a mesh file: ``.obj`` or ``.stl``.
 #[pyfunction]
 pub(crate) fn read_mesh(py: Python<'_>, path: PathBuf) -> Outcome<MeshArrays<'_>> {
     let mesh = py.detach(|| mesh_file::read(&path))?;

@@ -6,8 +6,17 @@ use tautline::{ClothSolver, Sleep};
 use crate::args::V3;
 use crate::errors::Outcome;
 
-/// How a world is simulated; `tautline.Settings()` is what most want.
-#[pyclass(frozen, module = "tautline._engine")]
+/// How a world is simulated.
+///
+/// Args:
+///     gravity: In m/s²; (0, -9.81, 0) if absent.
+///     substeps: In a step, 1 to 1000.
+///     separation_speed: At most so fast overlapping bodies are moved apart, in m/s; 3 if absent, None: at once.
+///     damping: Rate at which free motion dies out, in 1/s.
+///     wind: Velocity of the air, in m/s; it acts on cloth with ``drag``.
+///     air_density: In kg/m³.
+///     sleep: A body slower than so many m/s for so many s falls asleep; (0.03, 0.5) if absent, None: never.
+#[pyclass(frozen, module = "tautline")]
 pub(crate) struct Settings(pub(crate) tautline::Settings);
 
 #[pymethods]

@@ -10,8 +10,8 @@ use crate::args::{self, Rotation, V3};
 use crate::arrays;
 use crate::errors::Outcome;
 
-/// The shape of a rigid body; many bodies share one.
-#[pyclass(frozen, module = "tautline._engine")]
+/// The shape of a rigid body, in its own frame; many bodies share one.
+#[pyclass(frozen, module = "tautline")]
 pub(crate) struct Shape {
     pub(crate) shape: Arc<tautline::Shape>,
     /// Whether it is drawn without edges.
@@ -31,12 +31,13 @@ impl Shape {
         Ok(Self::new(tautline::Shape::sphere(radius)?, true))
     }
 
-    /// From half its edges.
+    /// From half its edges, in m.
     #[staticmethod]
     fn cuboid(half_extents: V3) -> Outcome<Self> {
         Ok(Self::new(tautline::Shape::cuboid(half_extents.0)?, false))
     }
 
+    /// Along y; ``half_height`` is that of the part between the two hemispheres, in m.
     #[staticmethod]
     fn capsule(radius: f32, half_height: f32) -> Outcome<Self> {
         Ok(Self::new(tautline::Shape::capsule(radius, half_height)?, true))
@@ -47,12 +48,14 @@ impl Shape {
         Ok(Self::new(tautline::Shape::cylinder(radius, half_height)?, false))
     }
 
+    /// Of points (n, 3), in m.
     #[staticmethod]
     fn convex_hull(points: &Bound<'_, PyAny>) -> Outcome<Self> {
         Ok(Self::new(tautline::Shape::convex_hull(&args::points("points", points)?)?, false))
     }
 
-    /// A closed mesh; a concave one becomes a union of convex parts.
+    /// A closed mesh of positions (n, 3) in m and triangles (m, 3); a concave one becomes a union of at most ``max_parts``
+    /// convex parts that are off by about ``tolerance`` (m).
     #[staticmethod]
     #[pyo3(signature = (positions, triangles, *, max_parts=None, tolerance=None))]
     fn from_mesh(
@@ -80,7 +83,7 @@ impl Shape {
         Ok(Self::new(tautline::Shape::triangle_mesh(&args::mesh(positions, triangles)?)?, false))
     }
 
-    /// Several shapes as one: a list of (shape, position, rotation).
+    /// Several shapes as one, each with its position (m) and its rotation (x, y, z, w).
     #[staticmethod]
     fn compound(parts: Vec<(PyRef<'_, Self>, V3, Rotation)>) -> Outcome<Self> {
         let parts: Vec<_> =
@@ -110,7 +113,7 @@ impl Shape {
         self.shape.part_count()
     }
 
-    /// Vertices of its surface in its own frame, in m: (n, 3).
+    /// Vertices of its surface, in m: (n, 3).
     #[getter]
     fn positions<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyArray2<f32>>> {
         arrays::vectors(py, self.shape.positions())

@@ -20,7 +20,7 @@ use crate::world::World;
 const TURN: Duration = Duration::from_millis(50);
 
 /// What a step did.
-#[pyclass(frozen, get_all, module = "tautline._engine")]
+#[pyclass(frozen, get_all, module = "tautline")]
 pub(crate) struct StepReport {
     /// Pairs of bodies whose boxes overlapped.
     pairs: usize,
@@ -45,24 +45,26 @@ fn step_scene(scene: &mut BuiltScene, dt: f32) -> Result<tautline::StepReport, t
 }
 
 /// How two bodies touched in the last step.
-#[pyclass(frozen, get_all, module = "tautline._engine")]
+#[pyclass(frozen, get_all, module = "tautline")]
 pub(crate) struct ContactEvent {
     /// "began", "persists" or "ended".
     kind: &'static str,
+    /// The one that was added first comes first.
     bodies: (Py<Body>, Py<Body>),
-    /// From the first to the second.
+    /// Unit, from the first to the second.
     normal: [f32; 3],
     /// In m.
     point: [f32; 3],
-    /// In N s.
+    /// Of the whole step, in N s.
     impulse: f32,
-    /// In m/s.
+    /// In m/s, if they began to touch.
     approach_speed: f32,
 }
 
 #[pymethods]
 impl World {
-    /// Advances by `dt` seconds.
+    /// Advances by ``dt`` seconds, or by its own. Other threads of Python go on meanwhile. A scene's cues are followed where
+    /// steps are as long as its own.
     #[pyo3(signature = (dt=None))]
     fn step(slf: &Bound<'_, Self>, dt: Option<f32>) -> Outcome<StepReport> {
         let (py, world) = (slf.py(), slf.get());
@@ -88,7 +90,14 @@ impl World {
         })
     }
 
-    /// Takes steps for so many seconds, and records what there is to see.
+    /// Takes steps for so many seconds, or as long as the scene says. Ctrl-C stops it; the world is then where it came to.
+    ///
+    /// Args:
+    ///     seconds: How long, in s.
+    ///     dt: The time of a step, in s, if it is not the world's.
+    ///     record: Whether what there is to see is kept, or figures only.
+    ///     every: Keep one step in so many.
+    ///     progress: True for a bar of tqdm, or a function of (steps done, steps).
     #[pyo3(signature = (seconds=None, *, dt=None, record=true, every=None, progress=None))]
     fn run(
         slf: &Bound<'_, Self>,
@@ -273,8 +282,8 @@ impl Tape {
     }
 }
 
-/// Many worlds that are stepped at once, on all cores.
-#[pyclass(frozen, module = "tautline._engine")]
+/// Many worlds that are stepped at once, on all cores. What they are stacked from must be of equal size.
+#[pyclass(frozen, module = "tautline")]
 pub(crate) struct Batch {
     worlds: Vec<Py<World>>,
 }
@@ -334,7 +343,7 @@ impl Batch {
         self.worlds.len()
     }
 
-    /// Advances all worlds by `count` steps.
+    /// Advances all worlds by ``count`` steps.
     #[pyo3(signature = (count=1, *, dt=None))]
     fn step(&self, py: Python<'_>, count: u64, dt: Option<f32>) -> Outcome<()> {
         for _ in 0..count {
@@ -345,7 +354,7 @@ impl Batch {
         Ok(())
     }
 
-    /// Positions of all particles, in m: (worlds, particles, 3).
+    /// Of all particles, in m: (worlds, particles, 3).
     #[getter]
     fn positions<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyArray3<f32>>> {
         self.stacked(py, |world| world.positions().to_vec())
@@ -357,7 +366,7 @@ impl Batch {
         self.stacked(py, |world| of_bodies(world, |body| body.center_of_mass()))
     }
 
-    /// Velocities of all bodies, in m/s: (worlds, bodies, 3).
+    /// Of all bodies, in m/s: (worlds, bodies, 3).
     #[getter]
     fn velocities<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyArray3<f32>>> {
         self.stacked(py, |world| of_bodies(world, |body| body.velocity()))

@@ -41,7 +41,7 @@ fn pool() -> Option<Arc<ThreadPool>> {
     Some(made)
 }
 
-/// Sets how many threads steps of this process are spread over, from the next on. Results do not depend on it.
+/// How many threads steps of this process are spread over, from the next on. Results do not depend on it.
 #[pyfunction]
 pub(crate) fn set_threads(count: usize) -> Outcome<()> {
     if !(1..=256).contains(&count) {

@@ -27,7 +27,7 @@ use crate::world::World;
 pub(crate) type Keep = OnceLock<BuiltScene>;
 
 /// What holds the memory that a view looks into.
-#[pyclass(frozen, module = "tautline._engine")]
+#[pyclass(frozen, module = "tautline")]
 pub(crate) struct Viewer {
     _world: Py<World>,
     _keep: Arc<Keep>,

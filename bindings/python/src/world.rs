@@ -17,7 +17,12 @@ use crate::settings::Settings;
 use crate::views::{self, Keep, Sight};
 
 /// Everything that is simulated together.
-#[pyclass(frozen, weakref, module = "tautline._engine")]
+///
+/// Args:
+///     settings: How.
+///     name: What its recordings are called.
+///     dt: The time of a step, in s.
+#[pyclass(frozen, weakref, module = "tautline")]
 pub(crate) struct World {
     state: Mutex<State>,
 }
@@ -99,18 +104,18 @@ impl World {
 #[pymethods]
 impl World {
     #[new]
-    #[pyo3(signature = (settings=None, *, dt=1.0 / 60.0))]
-    fn new(settings: Option<PyRef<'_, Settings>>, dt: f32) -> Outcome<Self> {
+    #[pyo3(signature = (settings=None, *, name="world".to_owned(), dt=1.0 / 60.0))]
+    fn new(settings: Option<PyRef<'_, Settings>>, name: String, dt: f32) -> Outcome<Self> {
         let settings = settings.map_or_else(tautline::Settings::default, |settings| settings.0.clone());
         if !(1e-7..=1.0).contains(&dt) {
             return Err(Failure::invalid("dt", format!("{dt} is not a time from 1e-7 to 1 (s)")));
         }
         let mut scene = BuiltScene::around(tautline::World::new(settings)?)?;
-        scene.dt = dt;
+        (scene.name, scene.dt) = (name, dt);
         Ok(Self::around(scene))
     }
 
-    /// Adds a body.
+    /// Adds a body; its name is made up if absent, its colour (sRGB, 0 to 255) chosen.
     #[pyo3(signature = (body, *, name=None, color=None))]
     fn add(
         slf: &Bound<'_, Self>,
@@ -197,7 +202,9 @@ impl World {
         self.look(py, |scene| scene.dt)
     }
 
-    /// Positions of all particles, in m: a read-only view (n, 3), without a copy.
+    /// Positions of all particles, in m: a read-only view (n, 3) of the engine's memory, which changes with every step.
+    ///
+    /// When a body is added or removed, or the world restored, views from before stay as they were: ask again.
     #[getter]
     fn positions<'py>(slf: &Bound<'py, Self>) -> Outcome<Bound<'py, PyArray2<f32>>> {
         let sight = slf.get().sight(slf.py(), |world| Ok(world.positions()))?;
@@ -254,7 +261,7 @@ impl World {
         (depth.max, depth.mean, depth.count)
     }
 
-    /// The whole world as bytes.
+    /// The whole world as bytes: it goes on from them with the same bits, on any platform.
     fn snapshot<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
         let bytes = self.look(py, |scene| scene.world.snapshot());
         PyBytes::new(py, &bytes)

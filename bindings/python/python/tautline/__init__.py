@@ -95,3 +95,7 @@ __all__ = [
     "to_trimesh",
     "validate",
 ]
+
+# Whoever reads a traceback knows them as tautline's own.
+for _error in (InvalidValueError, MeshError, SceneError, SnapshotError, StaleHandleError, TautlineError):
+    _error.__module__ = __name__

@@ -12,7 +12,6 @@ from typing import (
     Optional,
     Sequence,
     Tuple,
-    TypedDict,
     Union,
     final,
 )
@@ -21,6 +20,39 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from matplotlib.figure import Figure
+
+from ._types import NamedScene, Series
+
+__all__ = [
+    "Anchor",
+    "Attachment",
+    "Batch",
+    "Body",
+    "Cloth",
+    "ContactEvent",
+    "Distance",
+    "Grab",
+    "Grid",
+    "HalfSpace",
+    "Hit",
+    "Joint",
+    "Lattice",
+    "Recording",
+    "RigidBody",
+    "Rope",
+    "Scene",
+    "Settings",
+    "Shape",
+    "SoftSolid",
+    "StepReport",
+    "World",
+    "__version__",
+    "distance",
+    "read_mesh",
+    "scenes",
+    "set_threads",
+    "validate_json",
+]
 
 __version__: Final[str]
 
@@ -41,24 +73,24 @@ class Settings:
     Args:
         gravity: In m/s²; (0, -9.81, 0) if absent.
         substeps: In a step, 1 to 1000.
-        separation_speed: At most so fast overlapping bodies are moved apart, in m/s; None: at once.
+        separation_speed: At most so fast overlapping bodies are moved apart, in m/s; 3 if absent, None: at once.
         damping: Rate at which free motion dies out, in 1/s.
         wind: Velocity of the air, in m/s; it acts on cloth with ``drag``.
         air_density: In kg/m³.
-        sleep: A body slower than so many m/s for so many s falls asleep; None: never.
+        sleep: A body slower than so many m/s for so many s falls asleep; (0.03, 0.5) if absent, None: never.
     """
 
-    def __init__(
-        self,
+    def __new__(
+        cls,
         *,
         gravity: Optional[_Vector] = None,
         substeps: int = 8,
-        separation_speed: Optional[float] = 3.0,
+        separation_speed: Optional[float] = ...,
         damping: float = 0.0,
         wind: Optional[_Vector] = None,
         air_density: float = 1.2,
-        sleep: Optional[_Pair] = (0.03, 0.5),
-    ) -> None: ...
+        sleep: Optional[_Pair] = ...,
+    ) -> Settings: ...
     @staticmethod
     def paper() -> Settings:
         """The published system's own: one substep, ten sweeps, a tolerance of 1 %."""
@@ -139,14 +171,14 @@ class HalfSpace:
         offset: Of the plane from the origin along the normal, in m.
     """
 
-    def __init__(
-        self,
+    def __new__(
+        cls,
         normal: Optional[_Vector] = None,
         offset: float = 0.0,
         *,
         friction: float = 0.5,
         restitution: float = 0.0,
-    ) -> None: ...
+    ) -> HalfSpace: ...
 
 @final
 class RigidBody:
@@ -165,14 +197,14 @@ class RigidBody:
         rolling_friction: How far, in m, the normal force acts in front of the contact when it rolls.
         motion: What moves it: forces, its velocity alone, or nothing.
         gravity_scale: How many times the world's gravity acts on it.
-        damping: Rates at which its motion and its rotation die out, in 1/s.
+        damping: Rates at which its motion and its rotation die out, in 1/s; (0, 0) if absent.
         groups: Two bit masks, memberships and filter; all if absent.
         can_sleep: Whether it is put to sleep when it rests.
         report_contacts: Whether its contacts are in ``World.contact_events``.
     """
 
-    def __init__(
-        self,
+    def __new__(
+        cls,
         shape: Shape,
         *,
         position: Optional[_Vector] = None,
@@ -186,18 +218,18 @@ class RigidBody:
         rolling_friction: float = 0.0,
         motion: _Motion = "dynamic",
         gravity_scale: float = 1.0,
-        damping: _Pair = (0.0, 0.0),
+        damping: _Pair = ...,
         groups: Optional[Tuple[int, int]] = None,
         can_sleep: bool = True,
         report_contacts: bool = False,
-    ) -> None: ...
+    ) -> RigidBody: ...
 
 @final
 class Grid:
     """A level rectangle about the origin, ``width`` along x and ``depth`` along z (m), of ``columns`` × ``rows`` particles;
     particle ``row * columns + column``. For ``Cloth``."""
 
-    def __init__(self, columns: int, rows: int, width: float, depth: float) -> None: ...
+    def __new__(cls, columns: int, rows: int, width: float, depth: float) -> Grid: ...
     @property
     def columns(self) -> int: ...
     @property
@@ -237,8 +269,8 @@ class Cloth:
         seams: Pairs of particles that are sewn together.
     """
 
-    def __init__(
-        self,
+    def __new__(
+        cls,
         surface: Union[Grid, _Mesh],
         *,
         position: Optional[_Vector] = None,
@@ -260,7 +292,7 @@ class Cloth:
         creep: Optional[_Pair] = None,
         pins: Sequence[int] = ...,
         seams: Sequence[Tuple[int, int]] = ...,
-    ) -> None: ...
+    ) -> Cloth: ...
 
 @final
 class Rope:
@@ -281,8 +313,8 @@ class Rope:
         pins: Particles that stay where they start.
     """
 
-    def __init__(
-        self,
+    def __new__(
+        cls,
         points: ArrayLike,
         *,
         segments: Optional[ArrayLike] = None,
@@ -296,13 +328,13 @@ class Rope:
         compliance: Optional[float] = None,
         least_angle: Optional[float] = None,
         pins: Sequence[int] = ...,
-    ) -> None: ...
+    ) -> Rope: ...
 
 @final
 class Lattice:
     """A box from ``-half_extents`` to ``half_extents`` (m) of so many cells along each axis. For ``SoftSolid``."""
 
-    def __init__(self, half_extents: _Vector, cells: Sequence[int]) -> None: ...
+    def __new__(cls, half_extents: _Vector, cells: Sequence[int]) -> Lattice: ...
 
 @final
 class SoftSolid:
@@ -324,8 +356,8 @@ class SoftSolid:
         pins: Particles that stay where they start.
     """
 
-    def __init__(
-        self,
+    def __new__(
+        cls,
         volume: Union[Lattice, _Mesh],
         *,
         position: Optional[_Vector] = None,
@@ -340,7 +372,7 @@ class SoftSolid:
         thickness: Optional[float] = None,
         self_collision: bool = True,
         pins: Sequence[int] = ...,
-    ) -> None: ...
+    ) -> SoftSolid: ...
 
 _Builder = Union[RigidBody, Cloth, Rope, SoftSolid, HalfSpace]
 
@@ -350,10 +382,11 @@ class World:
 
     Args:
         settings: How.
+        name: What its recordings are called.
         dt: The time of a step, in s.
     """
 
-    def __init__(self, settings: Optional[Settings] = None, *, dt: float = ...) -> None: ...
+    def __new__(cls, settings: Optional[Settings] = None, *, name: str = ..., dt: float = ...) -> World: ...
     def add(
         self, body: _Builder, *, name: Optional[str] = None, color: Optional[Tuple[int, int, int]] = None
     ) -> Body:
@@ -847,7 +880,7 @@ class ContactEvent:
 class Batch:
     """Many worlds that are stepped at once, on all cores. What they are stacked from must be of equal size."""
 
-    def __init__(self, worlds: Sequence[World]) -> None: ...
+    def __new__(cls, worlds: Sequence[World]) -> Batch: ...
     @property
     def worlds(self) -> List[World]: ...
     def __len__(self) -> int: ...
@@ -876,7 +909,7 @@ class Scene:
         document: A dict as the document's JSON has it; NumPy's numbers and arrays will do.
     """
 
-    def __init__(self, document: Mapping[str, Any]) -> None: ...
+    def __new__(cls, document: Mapping[str, Any]) -> Scene: ...
     @staticmethod
     def from_json(text: str) -> Scene: ...
     @staticmethod
@@ -905,16 +938,6 @@ class Scene:
         progress: _Progress = None,
     ) -> Recording:
         """Makes its world and runs that: see ``World.run``."""
-
-class Series(TypedDict):
-    """Figures at the start, at every frame and at the end."""
-
-    time: NDArray[np.float64]
-    kinetic_energy: NDArray[np.float64]
-    potential_energy: NDArray[np.float64]
-    contacts: NDArray[np.uint64]
-    max_strain: NDArray[np.float32]
-    relaxations: NDArray[np.uint64]
 
 @final
 class Recording:
@@ -987,21 +1010,6 @@ class Recording:
         ffmpeg: Optional[str] = None,
     ) -> None: ...
     def _repr_html_(self) -> str: ...
-
-class Parameter(TypedDict):
-    """What can be chosen about a named scene."""
-
-    description: str
-    default: float
-    min: float
-    max: float
-
-class NamedScene(TypedDict):
-    """A scene with a name and parameters."""
-
-    name: str
-    description: str
-    parameters: Dict[str, Parameter]
 
 def distance(a: ArrayLike, b: ArrayLike) -> Distance:
     """The signed distance of the convex hulls of two sets of points, in m: (n, 3) and (m, 3)."""

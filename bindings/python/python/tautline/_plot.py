@@ -26,8 +26,10 @@ def plot(recording: "Recording") -> "Figure":
     energy.legend(frameon=False, ncols=3)
     contacts.plot(time, series["contacts"], color="C4")
     contacts.set_ylabel("contacts")
+    contacts.set_ylim(bottom=0)
     strain.plot(time, 100 * series["max_strain"], color="C3")
     strain.set_ylabel("largest strain in %")
+    strain.set_ylim(bottom=0)
     strain.set_xlabel("time in s")
     for axes in (energy, contacts, strain):
         axes.grid(alpha=0.25)
