@@ -4,6 +4,7 @@ mod command;
 mod files;
 mod hashes;
 mod project;
+mod python;
 mod readme;
 mod setup;
 mod steps;

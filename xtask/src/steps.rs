@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use crate::command::{cargo, run as run_command};
 use crate::project::Project;
-use crate::{hashes, readme, setup, tidy, web};
+use crate::{hashes, python, readme, setup, tidy, web};
 
 /// One thing that must pass.
 pub(crate) struct Step {
@@ -35,6 +35,11 @@ pub(crate) const STEPS: &[Step] = &[
     Step { name: "web", about: "the npm package: builds, is small, has the same bits", check: web::web },
     Step { name: "examples", about: "each runs and what it asserts holds", check: readme::examples },
     Step { name: "readme", about: "its commands, its scene and its program", check: readme::readme },
+    Step {
+        name: "python",
+        about: "the package installs, its tests pass, its types hold",
+        check: python::python,
+    },
     Step { name: "miri", about: "tests of unsafe code, if there is any", check: setup::miri },
 ];
 

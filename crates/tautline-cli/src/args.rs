@@ -56,7 +56,8 @@ pub(crate) struct Run {
     /// How many threads to use; all cores if absent. The result does not depend on it.
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=256))]
     pub(crate) threads: Option<u16>,
-    /// Write an animation (.glb, .gif), a page that plays it (.html) or a picture (.png); may be repeated.
+    /// Write an animation (.glb, .gif, .mp4), a page that plays it (.html), a picture (.png), a point cache (.pc2), arrays
+    /// (.npz) or a mesh for each frame (.obj, .ply); may be repeated.
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Vec<PathBuf>,
     /// Write the statistics of the run.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use indicatif::ProgressBar;
 use tautline_scene::document::Scene;
-use tautline_scene::export::{self, Format, Options, check_writable};
+use tautline_scene::export::{self, Format, Options, check_writable, frame_path};
 use tautline_scene::render;
 use tautline_scene::run::{Outcome, Run as SceneRun, RunOptions, RunSummary};
 
@@ -114,8 +114,11 @@ pub(crate) fn describe(summary: &RunSummary) -> String {
     text + &format!("  state {}\n", summary.state_hash)
 }
 
-/// A line on a file that was written.
+/// A line on a file that was written, or on one for each frame.
 pub(crate) fn describe_file(path: &Path) -> String {
+    if let Ok(Format::Obj | Format::Ply) = Format::of(path) {
+        return format!("  wrote {} and so on, one for each frame\n", frame_path(path, 0, 1).display());
+    }
     let size = std::fs::metadata(path).map_or(0, |file| file.len());
     format!("  wrote {} ({} kB)\n", path.display(), size.div_ceil(1000))
 }

@@ -64,7 +64,7 @@ pub enum Error {
     UnsupportedFormat {
         /// The file asked for.
         path: PathBuf,
-        /// The extensions that would do, such as ".gif, .glb, .html, .png".
+        /// The extensions that would do, such as ".json, .json5, .toml".
         supported: &'static str,
     },
     /// A picture of a size, rate or frame that cannot be made.

@@ -13,7 +13,7 @@ use super::joint::joint;
 use super::rigid::{rigid_body, surface, truss_body};
 use super::shape::{Make, Solids};
 use super::soft::soft_solid;
-use super::wall;
+use super::wall::{self, draw_walls};
 use super::{Look, Part};
 use crate::document::{
     self, Anchor, Attachment, Body, BodyRef, Cloth, Color, HalfSpace, Joint, Motion, Pin, Rigid, Room, Rope,
@@ -23,7 +23,7 @@ use crate::error::Problem;
 use crate::render::palette;
 
 /// Colour of what never moves.
-const GREY: [u8; 3] = [176, 180, 188];
+pub(super) const GREY: [u8; 3] = [176, 180, 188];
 
 /// Why a body was refused, and in which of its fields, such as `.shape`.
 pub(crate) struct Refusal {
@@ -272,20 +272,7 @@ impl Builder {
 
     /// Draws half-spaces so large that no edge is near a body.
     pub(crate) fn draw_walls(&mut self) {
-        let places = self.world.positions();
-        let (low, high) = places
-            .iter()
-            .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
-        let (center, size) =
-            if places.is_empty() { (Vec3::ZERO, 0.0) } else { ((low + high) / 2.0, low.distance(high)) };
-        for part in &mut self.parts {
-            let plane = self.world.body(part.body).ok().and_then(|body| body.plane());
-            if let (Look::Wall(mesh), Some((normal, offset))) = (&mut part.look, plane)
-                && mesh.positions.is_empty()
-            {
-                *mesh = wall::square(normal, offset, center, 10.0_f32.max(10.0 * size));
-            }
-        }
+        draw_walls(&self.world, &mut self.parts);
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod attachment;
 mod body;
+mod by_hand;
 mod cloth;
 pub(crate) mod cue;
 mod joint;

@@ -1,8 +1,9 @@
 //! Rectangles of planes, for drawing half-spaces and rooms.
 
-use tautline::Vec3;
 use tautline::mesh::TriMesh;
+use tautline::{Vec3, World};
 
+use super::{Look, Part};
 use crate::document::Room;
 
 /// A rectangle about `center` that reaches as far as `right` and `up` each way, in m; it faces along
@@ -12,8 +13,25 @@ pub(super) fn rectangle(center: Vec3, right: Vec3, up: Vec3) -> TriMesh {
     TriMesh { positions, triangles: vec![[0, 1, 2], [0, 2, 3]] }
 }
 
+/// Gives half-spaces that have no surface yet one so large that no edge is near a body.
+pub(super) fn draw_walls(world: &World, parts: &mut [Part]) {
+    let places = world.positions();
+    let (low, high) =
+        places.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
+    let (center, size) =
+        if places.is_empty() { (Vec3::ZERO, 0.0) } else { ((low + high) / 2.0, low.distance(high)) };
+    for part in parts {
+        let plane = world.body(part.body).ok().and_then(|body| body.plane());
+        if let (Look::Wall(mesh), Some((normal, offset))) = (&mut part.look, plane)
+            && mesh.positions.is_empty()
+        {
+            *mesh = square(normal, offset, center, 10.0_f32.max(10.0 * size));
+        }
+    }
+}
+
 /// A square of a plane around the foot of `near`, reaching `reach` m each way.
-pub(super) fn square(normal: Vec3, offset: f32, near: Vec3, reach: f32) -> TriMesh {
+fn square(normal: Vec3, offset: f32, near: Vec3, reach: f32) -> TriMesh {
     let center = near + normal * (offset - normal.dot(near));
     let right = normal.any_orthonormal_vector() * reach;
     rectangle(center, right, normal.cross(right))

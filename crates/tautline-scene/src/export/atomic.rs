@@ -35,6 +35,22 @@ pub fn write_atomically(
     }
 }
 
+/// As [`write_atomically`], for what another program writes: it gets the path of an empty file beside `path`.
+///
+/// # Errors
+/// As [`write_atomically`]; a pipe or a device is refused.
+pub(super) fn write_beside(path: &Path, write: impl FnOnce(&Path) -> Result<(), Error>) -> Result<(), Error> {
+    let at_path = |source: io::Error| io_error(path, source);
+    let Destination::File(target) = destination(path).map_err(at_path)? else {
+        let problem = "only a file can hold it: a pipe or a device cannot be rewound";
+        return Err(at_path(io::Error::new(io::ErrorKind::NotSeekable, problem)));
+    };
+    let file = temporary_beside(&target).map_err(at_path)?;
+    write(file.path())?;
+    file.persist(&target).map_err(|failure| at_path(failure.error))?;
+    Ok(())
+}
+
 /// Whether [`write_atomically`] could write to `path` now, found out without leaving a trace.
 ///
 /// # Errors

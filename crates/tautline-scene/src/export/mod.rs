@@ -1,12 +1,18 @@
-//! Recordings out: pictures and animations.
+//! Recordings out: pictures, films, animations, meshes and arrays.
 
 mod atomic;
 mod gif;
 mod glb;
 mod html;
+mod joined;
+mod mp4;
+mod npz;
 mod palette;
+mod pc2;
 mod png;
+mod sequence;
 
+use std::ffi::OsStr;
 use std::path::Path;
 
 use crate::Error;
@@ -17,10 +23,14 @@ pub use atomic::{check_writable, write_atomically};
 pub use gif::write_gif;
 pub use glb::{glb_bytes, write_glb};
 pub use html::{html, write_html};
+pub use mp4::write_mp4;
+pub use npz::write_npz;
+pub use pc2::{mesh_path, write_pc2};
 pub use png::write_png;
+pub use sequence::{frame_path, write_obj, write_ply};
 
 /// The extensions that [`write()`] knows.
-pub const FORMATS: &str = ".gif, .glb, .html, .png";
+pub const FORMATS: &str = ".gif, .glb, .html, .mp4, .npz, .obj, .pc2, .ply, .png";
 
 /// A format that recordings are written in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,6 +41,16 @@ pub enum Format {
     Glb,
     /// A page that plays it.
     Html,
+    /// A film, by ffmpeg.
+    Mp4,
+    /// NumPy's arrays.
+    Npz,
+    /// Wavefront OBJ, one file for each frame.
+    Obj,
+    /// A point cache, with its mesh as OBJ beside it.
+    Pc2,
+    /// Binary PLY, one file for each frame.
+    Ply,
     /// One picture.
     Png,
 }
@@ -46,6 +66,11 @@ impl Format {
             "gif" => Ok(Self::Gif),
             "glb" => Ok(Self::Glb),
             "html" => Ok(Self::Html),
+            "mp4" => Ok(Self::Mp4),
+            "npz" => Ok(Self::Npz),
+            "obj" => Ok(Self::Obj),
+            "pc2" => Ok(Self::Pc2),
+            "ply" => Ok(Self::Ply),
             "png" => Ok(Self::Png),
             _ => Err(Error::UnsupportedFormat { path: path.to_owned(), supported: FORMATS }),
         }
@@ -69,12 +94,13 @@ impl Default for Options {
     }
 }
 
-/// Writes a recording in the format that the extension of `path` names: `.glb` (animated glTF), `.gif`,
-/// `.html` (a page that plays it) or `.png` (one frame). `progress` is told (steps done, steps to do).
+/// Writes a recording in the format that the extension of `path` names: `.glb` (animated glTF), `.gif`, `.html` (a page
+/// that plays it), `.mp4` (by the ffmpeg that is found where programs are), `.png` (one frame), `.pc2` (and its mesh as
+/// `.obj`), `.npz`, or one `.obj` or `.ply` for each frame. `progress` is told (steps done, steps to do).
 ///
 /// # Errors
-/// [`Error::UnsupportedFormat`] for another extension; otherwise those of [`write_glb`], [`write_gif`],
-/// [`write_html`], [`Renderer::new`] and [`write_png`].
+/// [`Error::UnsupportedFormat`] for another extension; otherwise those of [`write_glb`], [`write_gif`], [`write_html`],
+/// [`write_mp4`], [`write_npz`], [`write_pc2`], [`write_obj`], [`Renderer::new`] and [`write_png`].
 pub fn write(
     recording: &Recording,
     path: &Path,
@@ -83,18 +109,27 @@ pub fn write(
 ) -> Result<(), Error> {
     match Format::of(path)? {
         Format::Gif => return write_gif(recording, path, options.picture, options.gif_frame_rate, progress),
+        Format::Mp4 => {
+            return write_mp4(recording, path, options.picture, OsStr::new("ffmpeg"), progress);
+        }
+        Format::Obj => return write_obj(recording, path, progress),
+        Format::Pc2 => return write_pc2(recording, path, progress),
+        Format::Ply => return write_ply(recording, path, progress),
         Format::Glb => write_glb(recording, path)?,
         Format::Html => write_html(recording, options.picture.camera, path)?,
-        Format::Png => {
-            let last = recording.frame_count() - 1;
-            let frame = options.png_frame.unwrap_or(last);
-            if frame > last {
-                let problem = format!("there is no frame {frame}: the last is {last}");
-                return Err(Error::Unsupported { option: "png_frame", problem });
-            }
-            write_png(&Renderer::new(recording, options.picture)?.frame(frame), path)?;
-        }
+        Format::Npz => write_npz(recording, path)?,
+        Format::Png => write_frame(recording, path, options)?,
     }
     progress(1, 1);
     Ok(())
+}
+
+fn write_frame(recording: &Recording, path: &Path, options: &Options) -> Result<(), Error> {
+    let last = recording.frame_count() - 1;
+    let frame = options.png_frame.unwrap_or(last);
+    if frame > last {
+        let problem = format!("there is no frame {frame}: the last is {last}");
+        return Err(Error::Unsupported { option: "png_frame", problem });
+    }
+    write_png(&Renderer::new(recording, options.picture)?.frame(frame), path)
 }

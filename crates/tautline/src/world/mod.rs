@@ -175,7 +175,8 @@ impl World {
         (0..self.bodies.len()).map(|index| self.slots.handle(index))
     }
 
-    /// Positions of all particles, in m, body after body.
+    /// Positions of all particles, in m, body after body. They stay at one address until a body is added or removed: a
+    /// step changes them in place.
     pub fn positions(&self) -> &[Vec3] {
         &self.particles.position
     }

@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::World;
 use super::bodies::check_particle_mass;
-use crate::error::{Error, coordinates};
+use crate::error::{Error, all_coordinates, coordinates};
 use crate::slots::BodyHandle;
 
 impl World {
@@ -69,6 +69,31 @@ impl World {
         Ok(())
     }
 
+    /// Puts all particles of a body somewhere (m), in their order; otherwise as [`World::set_particle_position`].
+    ///
+    /// # Errors
+    /// [`Error::StaleHandle`]; [`Error::OutOfRange`] if a coordinate is; [`Error::Invalid`] if the body is rigid or has
+    /// another number of particles.
+    pub fn set_particle_positions(&mut self, handle: BodyHandle, positions: &[Vec3]) -> Result<(), Error> {
+        let index = self.slots.index(handle)?;
+        let range = self.bodies[index].particles.clone();
+        if self.bodies[index].is_rigid() {
+            return Err(no_particles());
+        }
+        if positions.len() != range.len() {
+            let problem = format!("has {} points for {} particles", positions.len(), range.len());
+            return Err(Error::Invalid { field: "positions".into(), problem });
+        }
+        all_coordinates("positions", positions)?;
+        self.wake_body(index);
+        self.wake_around_fixed(index);
+        self.index.take();
+        self.particles.position[range].copy_from_slice(positions);
+        self.bodies[index].refit_tree(&self.particles.position);
+        self.wake_around_fixed(index);
+        Ok(())
+    }
+
     /// Sets the mass of one particle, in kg.
     ///
     /// # Errors
@@ -88,8 +113,7 @@ impl World {
     fn particle(&self, handle: BodyHandle, particle: u32) -> Result<(usize, usize), Error> {
         let index = self.slots.index(handle)?;
         if self.bodies[index].is_rigid() {
-            let problem = "is rigid: its particles move as one and are not to be reached one by one".into();
-            return Err(Error::Invalid { field: "body".into(), problem });
+            return Err(no_particles());
         }
         let range = &self.bodies[index].particles;
         if (particle as usize) < range.len() {
@@ -98,4 +122,9 @@ impl World {
         let (field, value) = ("particle".into(), f64::from(particle));
         Err(Error::OutOfRange { field, value, expected: "the number of one of the body's particles" })
     }
+}
+
+fn no_particles() -> Error {
+    let problem = "is rigid: its particles move as one and are not to be reached one by one".into();
+    Error::Invalid { field: "body".into(), problem }
 }

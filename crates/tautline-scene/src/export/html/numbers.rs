@@ -32,7 +32,8 @@ impl Numbers {
     pub(super) fn poses(&mut self, poses: &[(Vec3, Quat)]) -> Value {
         let bounds = Bounds::of(poses.iter().map(|pose| pose.0));
         let row = |&(position, rotation): &(Vec3, Quat)| {
-            let rotation = rotation.to_array().map(|c| (c.clamp(-1.0, 1.0) * ROTATION_STEPS).round() as i16 as u16);
+            let rotation =
+                rotation.to_array().map(|c| (c.clamp(-1.0, 1.0) * ROTATION_STEPS).round() as i16 as u16);
             bounds.steps(position).into_iter().chain(rotation).collect()
         };
         self.differences(poses.iter().map(row));
@@ -52,8 +53,11 @@ impl Numbers {
         let mut before: Vec<u16> = Vec::new();
         for row in rows {
             before.resize(row.len(), 0);
-            let steps: Vec<[u8; 2]> =
-                row.iter().zip(&before).map(|(now, before)| now.wrapping_sub(*before).to_le_bytes()).collect();
+            let steps: Vec<[u8; 2]> = row
+                .iter()
+                .zip(&before)
+                .map(|(now, before)| now.wrapping_sub(*before).to_le_bytes())
+                .collect();
             self.bytes.extend(steps.iter().map(|bytes| bytes[0]));
             self.bytes.extend(steps.iter().map(|bytes| bytes[1]));
             before = row;

@@ -1,0 +1,56 @@
+"""``python -m tautline``: runs a scene and writes what it looked like."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import List, Optional
+
+from . import Scene, TautlineError, __version__, scenes
+
+
+def main(arguments: Optional[List[str]] = None) -> int:
+    parser = argparse.ArgumentParser("python -m tautline", description="Run a scene and write a picture of it.")
+    names = ", ".join(str(scene["name"]) for scene in scenes())
+    parser.add_argument("scene", nargs="?", default="hammock", help=f"a scene file, or one of {names}")
+    parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the scene")
+    parser.add_argument("--seconds", type=float, help="how long to run; what the scene says if absent")
+    parser.add_argument("--out", type=Path, help="the file to write; SCENE.png if absent")
+    parser.add_argument("--version", action="version", version=f"tautline {__version__}")
+    options = parser.parse_args(arguments)
+    try:
+        scene = _find(options.scene, options.set)
+        out: Path = options.out or Path(f"{scene.name}.png")
+        recording = scene.run(options.seconds, progress=_percent if sys.stderr.isatty() else None)
+        out.parent.mkdir(parents=True, exist_ok=True)
+        recording.save(out)
+    except (TautlineError, OSError) as error:
+        print(error, file=sys.stderr)
+        return 1
+    milliseconds = 1000 * recording.engine_seconds / recording.steps
+    print(f"{scene.name}: {recording.steps} steps of {milliseconds:.2f} ms, state {recording.state_hash}")
+    print(f"  wrote {out}")
+    return 0
+
+
+def _find(scene: str, assignments: List[str]) -> Scene:
+    if Path(scene).suffix in (".json", ".json5", ".toml"):
+        return Scene.load(scene)
+    pairs = [assignment.partition("=") for assignment in assignments]
+    return Scene.named(scene, **{name: _number(value) for name, _, value in pairs})
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return float("nan")
+
+
+def _percent(done: int, total: int) -> None:
+    print(f"\r{100 * done // total} %", end="\n" if done >= total else "", file=sys.stderr, flush=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,39 @@
+"""Figures of a run over time."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from ._engine import Recording
+
+
+def plot(recording: "Recording") -> "Figure":
+    """Energy, contacts and the largest strain over time, one below the other."""
+    from matplotlib.figure import Figure
+
+    series = recording.series
+    time = series["time"]
+    figure = Figure(figsize=(7, 6.5), layout="constrained")
+    energy, contacts, strain = figure.subplots(3, 1, sharex=True)
+    kinetic, potential = series["kinetic_energy"], series["potential_energy"]
+    energy.plot(time, kinetic, label="kinetic")
+    energy.plot(time, potential, label="potential")
+    energy.plot(time, kinetic + potential, label="sum", color="0.3", linestyle="--")
+    energy.set_ylabel("energy in J")
+    energy.legend(frameon=False, ncols=3)
+    contacts.plot(time, series["contacts"], color="C4")
+    contacts.set_ylabel("contacts")
+    contacts.set_ylim(bottom=0)
+    strain.plot(time, 100 * series["max_strain"], color="C3")
+    strain.set_ylabel("largest strain in %")
+    strain.set_ylim(bottom=0)
+    strain.set_xlabel("time in s")
+    for axes in (energy, contacts, strain):
+        axes.grid(alpha=0.25)
+        axes.spines[["top", "right"]].set_visible(False)
+        axes.margins(x=0)
+    figure.suptitle(recording.name)
+    return figure
