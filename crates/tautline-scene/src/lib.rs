@@ -17,6 +17,7 @@ mod error;
 pub mod export;
 pub mod judge;
 mod load;
+pub mod marks;
 pub mod mesh_file;
 pub mod random;
 pub mod recording;
