@@ -5,11 +5,11 @@ use std::path::Path;
 use serde_json::{Value, json};
 use tautline::mesh::TriMesh;
 use tautline::mesh::doctor::{Defect, RepairOptions, Repaired, Report, diagnose, repair};
+use tautline_scene::Error;
 use tautline_scene::export::{Format as PictureFormat, check_writable, write_png};
-use tautline_scene::marks::marked;
+use tautline_scene::marks::{LEGEND, marked};
 use tautline_scene::mesh_file::{Limits, MeshFile, read_mesh, writable, write_mesh};
 use tautline_scene::render::{Renderer, Settings};
-use tautline_scene::{Error, Problem};
 
 use super::table;
 use crate::args::Check;
@@ -37,6 +37,9 @@ pub(super) fn check(arguments: &Check) -> Result<(), Failure> {
         print(&table::examination(&arguments.file, &file, &report))?;
         if let (Some(path), Some(repaired)) = (&arguments.repair, &repaired) {
             print(&table::treatment(path, repaired))?;
+        }
+        if let Some(path) = &arguments.picture {
+            print(&format!("\n{}: {LEGEND}\n", path.display()))?;
         }
     }
     let verdict = repaired.as_ref().map_or(&report, |repaired| &repaired.report);
@@ -67,9 +70,8 @@ fn draw(mesh: &TriMesh, report: &Report, path: &Path) -> Result<(), Failure> {
 }
 
 fn report_refusal(arguments: &Check, error: &Error) -> Result<(), Failure> {
-    let problem = Problem { path: String::new(), message: error.to_string() };
     print_json(&json!({
-        "file": arguments.file.display().to_string(), "ok": false, "problems": [{ "path": problem.path, "message": problem.message }],
+        "file": arguments.file.display().to_string(), "ok": false, "problems": [{ "path": "", "message": error.to_string() }],
     }))?;
     Err(Failure::Reported)
 }
