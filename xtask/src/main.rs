@@ -3,6 +3,7 @@
 mod command;
 mod files;
 mod hashes;
+mod meshes;
 mod project;
 mod python;
 mod readme;

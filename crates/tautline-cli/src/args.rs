@@ -23,7 +23,7 @@ pub(crate) enum Command {
     Run(Run),
     /// Open the playground in the browser: scenes to grab, change and look into.
     View(View),
-    /// Check a scene file and name every problem in it. Exit code 0: none, 1: some, 2: no such file.
+    /// Check a scene or mesh file and name every problem in it. Exit code 0: none, 1: some, 2: no such file.
     Check(Check),
     /// Measure the time of a step, phase by phase.
     Bench(Bench),
@@ -88,11 +88,17 @@ pub(crate) struct View {
 
 #[derive(Debug, Args)]
 pub(crate) struct Check {
-    /// A scene file: .json, .json5 or .toml.
+    /// A scene file: .json, .json5 or .toml; or a mesh file: .obj, .stl, .ply, .gltf or .glb.
     pub(crate) file: PathBuf,
-    /// Print JSON.
+    /// Print JSON, with every defect of a mesh; the table names the first of each kind.
     #[arg(long)]
     pub(crate) json: bool,
+    /// Repair the mesh and write it: .obj, .stl or .ply. The exit code is that of the repaired mesh.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) repair: Option<PathBuf>,
+    /// Draw the mesh as it is in the file, with its defects marked.
+    #[arg(long, value_name = "FILE.png")]
+    pub(crate) picture: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

@@ -18,6 +18,7 @@ pub mod export;
 pub mod judge;
 pub mod live;
 mod load;
+pub mod marks;
 pub mod mesh_file;
 pub mod random;
 pub mod recording;

@@ -275,6 +275,19 @@ fn a_fin_is_parted_from_its_solid_and_told_of() {
 }
 
 #[test]
+fn small_fins_are_dropped() {
+    let mut mesh = ball();
+    let [a, b, _] = mesh.triangles[7];
+    mesh.positions.push((mesh.positions[a as usize] + mesh.positions[b as usize]) * 0.52);
+    mesh.triangles.push([a, b, mesh.positions.len() as u32 - 1]);
+    let fin = mesh.triangles.len() as u32 - 1;
+    let repaired = mend(&mesh);
+    assert_clean(&repaired.mesh, &repaired.report);
+    let dropped = Action::DroppedTriangles { why: Why::Fin, count: 1, triangles: vec![fin] };
+    assert!(repaired.actions.contains(&dropped), "{:?}", repaired.actions);
+}
+
+#[test]
 fn torn_surfaces_are_welded() {
     for noise in [0.0, 2e-7] {
         let mut mesh = TriMesh::default();

@@ -96,7 +96,7 @@ pub enum Shape {
     },
     /// A closed surface of triangles.
     Mesh(MeshSource),
-    /// A closed surface from an OBJ or STL file.
+    /// A closed surface from an OBJ, STL, PLY or glTF file.
     File(MeshFile),
     /// Solids that move as one. Not for a truss.
     Compound {
@@ -180,7 +180,7 @@ pub enum Surface {
     },
     /// A surface of triangles.
     Mesh(MeshSource),
-    /// A surface from an OBJ or STL file.
+    /// A surface from an OBJ, STL, PLY or glTF file.
     File(MeshFile),
 }
 

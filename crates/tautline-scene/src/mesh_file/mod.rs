@@ -27,7 +27,7 @@ pub(crate) use folder::read_limited;
 pub use limits::Limits;
 pub use notes::Note;
 pub use refusal::{Place, Refusal};
-pub use write::write_mesh;
+pub use write::{writable, write_mesh};
 
 /// The extensions that [`Format::of`] knows.
 pub const FORMATS: &str = ".obj, .stl, .ply, .gltf, .glb";

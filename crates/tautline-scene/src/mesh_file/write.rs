@@ -9,21 +9,35 @@ use super::Format;
 use crate::error::Error;
 use crate::export::write_atomically;
 
+type Writer = fn(&TriMesh, &mut dyn Write) -> io::Result<()>;
+
 /// Writes a mesh as the extension of the path says: `.obj` (text), `.stl` or `.ply` (binary). Its triangles must name
 /// vertices that are there.
 ///
 /// # Errors
-/// [`Error::UnsupportedFormat`] for another extension; [`Error::Io`] if the file cannot be written.
+/// Those of [`writable`]; [`Error::Io`] if the file cannot be written.
 pub fn write_mesh(mesh: &TriMesh, path: &Path) -> Result<(), Error> {
-    let write = match Format::of(path) {
-        Some(Format::Obj) => write_obj,
-        Some(Format::Stl) => write_stl,
-        Some(Format::Ply) => write_ply,
-        Some(Format::Gltf) | None => {
-            return Err(Error::UnsupportedFormat { path: path.to_owned(), supported: ".obj, .stl, .ply" });
-        }
-    };
+    let write = writer(path)?;
     write_atomically(path, |out| write(mesh, out).map_err(|source| Error::io(path, source)))
+}
+
+/// Whether a mesh can be written in the format that the extension of the path names.
+///
+/// # Errors
+/// [`Error::UnsupportedFormat`] if it cannot.
+pub fn writable(path: &Path) -> Result<(), Error> {
+    writer(path).map(|_| ())
+}
+
+fn writer(path: &Path) -> Result<Writer, Error> {
+    match Format::of(path) {
+        Some(Format::Obj) => Ok(write_obj),
+        Some(Format::Stl) => Ok(write_stl),
+        Some(Format::Ply) => Ok(write_ply),
+        Some(Format::Gltf) | None => {
+            Err(Error::UnsupportedFormat { path: path.to_owned(), supported: ".obj, .stl, .ply" })
+        }
+    }
 }
 
 fn write_obj(mesh: &TriMesh, out: &mut dyn Write) -> io::Result<()> {

@@ -71,7 +71,7 @@ pub enum Defect {
         /// The vertex.
         vertex: u32,
     },
-    /// Vertices at the same place on open edges: the surface probably goes on there, and is torn.
+    /// Vertices at the same place, at ends of open edges that lie on each other: the surface is torn there.
     Unwelded {
         /// The vertices.
         vertices: Vec<u32>,
@@ -132,7 +132,7 @@ impl Report {
 }
 
 impl Defect {
-    /// What it is called, in the plural.
+    /// What it is called, many of it.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Empty => "no triangles",
@@ -162,7 +162,9 @@ impl Defect {
             Self::Degenerate { .. } => "repair drops them, or swaps an edge so that they have an area",
             Self::Duplicate { .. } => "repair keeps one of each, and none of those that divide a solid",
             Self::Isolated { .. } => "repair drops them",
-            Self::Unwelded { .. } => "repair makes them one",
+            Self::Unwelded { .. } => {
+                "repair makes them one, unless that makes a surface with one side or too many triangles at an edge"
+            }
             Self::NonManifoldEdge { .. } | Self::BowTie { .. } => "repair parts the surfaces that meet there",
             Self::Flipped { .. } | Self::InsideOut { .. } => "repair turns them round",
             Self::OneSided { .. } => "repair cuts the surface open there; a solid cannot have such a surface",

@@ -56,16 +56,24 @@ impl<'a> Surface<'a> {
         self.triangles.iter().zip(&self.included).map(weld).collect()
     }
 
-    /// Vertices at one place, of which two or more are on open edges.
+    /// Vertices at one place, where open edges lie on open edges.
     pub(super) fn unwelded(&self) -> Vec<Defect> {
-        let mut is_open = vec![false; self.points.len()];
-        self.open().iter().flatten().for_each(|&vertex| is_open[vertex as usize] = true);
-        let mut open: Vec<(u32, u32)> = (0..self.points.len() as u32)
-            .filter(|&v| is_open[v as usize])
-            .map(|v| (self.place[v as usize], v))
+        let place = |vertex: u32| self.place[vertex as usize];
+        let mut open: Vec<([u32; 2], [u32; 2])> = self
+            .open()
+            .into_iter()
+            .map(|[a, b]| {
+                let (a, b) = if place(a) <= place(b) { (a, b) } else { (b, a) };
+                ([place(a), place(b)], [a, b])
+            })
             .collect();
         open.sort_unstable();
-        let groups = open.chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() > 1);
+        let torn = open.chunk_by(|x, y| x.0 == y.0).filter(|edges| edges.len() > 1);
+        let mut at_place: Vec<(u32, u32)> =
+            torn.flatten().flat_map(|(places, ends)| [(places[0], ends[0]), (places[1], ends[1])]).collect();
+        at_place.sort_unstable();
+        at_place.dedup();
+        let groups = at_place.chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() > 1);
         groups
             .map(|group| Defect::Unwelded { vertices: group.iter().map(|&(_, vertex)| vertex).collect() })
             .collect()

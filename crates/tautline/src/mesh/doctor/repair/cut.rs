@@ -4,13 +4,22 @@
 
 use super::super::edges::{Side, by_edge, corners_at, partners, sides};
 use super::super::groups::Groups;
-use super::Action;
+use super::hole::areas;
 use super::patient::Patient;
+use super::{Action, Why};
 
-/// Doubles vertices until every edge has at most two triangles and every vertex one fan, where that is possible.
+/// What is left of another surface is a fin if its area is less than this share of the largest component's.
+const FIN_SHARE: f64 = 0.01;
+
+/// Doubles vertices until every edge has at most two triangles and every vertex one fan, where that is possible. Small
+/// fins that stood on a surface are dropped.
 pub(super) fn part(patient: &mut Patient) {
     let triangles = &patient.mesh.triangles;
     let sides = sides(triangles, &vec![true; triangles.len()]);
+    let crowded: Vec<u32> = by_edge(&sides)
+        .filter(|sharing| sharing.len() > 2)
+        .flat_map(|sharing| sharing.iter().map(Side::triangle))
+        .collect();
     let mut patches = Groups::new(triangles.len());
     for (half_edge, &partner) in partners(triangles, &sides).iter().enumerate() {
         if partner != u32::MAX {
@@ -27,6 +36,23 @@ pub(super) fn part(patient: &mut Patient) {
         }
     }
     give_each_fan_a_vertex(patient, &mut corners);
+    drop_fins(patient, &crowded);
+}
+
+/// Drops small open components that have been parted from another at an edge of too many triangles.
+fn drop_fins(patient: &mut Patient, crowded: &[u32]) {
+    let surface = patient.surface();
+    let first = surface.first_of_component();
+    let areas = areas(&patient.mesh, &first);
+    let largest = areas.iter().copied().fold(0.0, f64::max);
+    let mut is_fin = vec![false; first.len()];
+    crowded.iter().for_each(|&triangle| is_fin[first[triangle as usize] as usize] = true);
+    for component in surface.components().0 {
+        let triangle = component.first_triangle as usize;
+        is_fin[triangle] &= !component.is_closed && areas[triangle] < FIN_SHARE * largest;
+    }
+    let kept: Vec<bool> = first.iter().map(|&first| !is_fin[first as usize]).collect();
+    patient.keep(&kept, Why::Fin);
 }
 
 /// The sides of an edge that go on in each other: one forward and one backward each, first those of one patch.

@@ -40,7 +40,7 @@ pub(super) fn fill(patient: &mut Patient, options: &RepairOptions) {
 }
 
 /// The area of each triangle's component, in m².
-fn areas(mesh: &TriMesh, first_of_component: &[u32]) -> Vec<f64> {
+pub(super) fn areas(mesh: &TriMesh, first_of_component: &[u32]) -> Vec<f64> {
     let mut sums = vec![0.0; mesh.triangles.len()];
     for (&triangle, &first) in mesh.triangles.iter().zip(first_of_component) {
         sums[first as usize] += area(mesh, triangle);

@@ -108,6 +108,8 @@ pub enum Why {
     Duplicate,
     /// They divide a solid.
     Wall,
+    /// They stood on a surface and bound nothing.
+    Fin,
 }
 
 impl std::fmt::Display for Action {
@@ -119,6 +121,7 @@ impl std::fmt::Display for Action {
                     Why::NoArea => "without area",
                     Why::Duplicate => "with the corners of others",
                     Why::Wall => "that divided a solid",
+                    Why::Fin => "of small fins on a surface",
                 };
                 write!(f, "dropped {count} triangles {why}")
             }
@@ -142,6 +145,8 @@ impl std::fmt::Display for Action {
 /// more, except where a defect remains.
 pub fn repair(mesh: &TriMesh, options: &RepairOptions) -> Repaired {
     let mut patient = Patient::admit(mesh);
+    // Duplicates hide open edges, and welding makes duplicates.
+    duplicate::drop_duplicates(&mut patient);
     weld::weld(&mut patient, options.weld_distance);
     duplicate::drop_duplicates(&mut patient);
     patient.turn_to_agree();

@@ -1,4 +1,4 @@
-//! `tautline check`: every problem of a scene file.
+//! Every problem of a scene file.
 
 use serde_json::json;
 use tautline_scene::build::BuiltScene;
@@ -8,7 +8,7 @@ use crate::args::Check;
 use crate::failure::Failure;
 use crate::output::{print, print_json};
 
-pub(crate) fn check(arguments: &Check) -> Result<(), Failure> {
+pub(super) fn check(arguments: &Check) -> Result<(), Failure> {
     let file = arguments.file.display();
     let problems = match load(&arguments.file).and_then(|scene| scene.build()) {
         Ok(scene) => return report_sound(arguments, &scene),

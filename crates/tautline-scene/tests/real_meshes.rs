@@ -1,0 +1,133 @@
+//! Meshes that other people made: examined, repaired, and let fall if they are solids then. They are not a part of this
+//! project: `cargo xtask test --only meshes` fetches them and runs this; what it finds stands in `docs/meshes.md`.
+
+use std::fmt::Write;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
+
+use tautline::mesh::TriMesh;
+use tautline::mesh::doctor::{Defect, RepairOptions, Repaired, Report, diagnose, repair};
+use tautline::{HalfSpace, RigidBody, Settings, Shape, Vec3, World};
+use tautline_scene::mesh_file::{Limits, read_mesh};
+
+/// Where `xtask` puts the files.
+const FOLDER: &str = "TAUTLINE_MESHES";
+/// Set to write the table anew.
+const UPDATE: &str = "UPDATE_MESHES";
+/// Divided into convex parts in seconds.
+const MOST_FALLING: usize = 2_000;
+
+#[test]
+#[ignore = "`cargo xtask test --only meshes` fetches the meshes"]
+fn real_meshes_are_examined_repaired_and_come_to_rest() {
+    let folder = PathBuf::from(std::env::var_os(FOLDER).expect("run by `cargo xtask test --only meshes`"));
+    let mut paths: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.sort();
+    assert!(paths.len() >= 10, "{paths:?}");
+    let mut table =
+        "| mesh | vertices | triangles | found | done | left | falls |\n|---|---|---|---|---|---|---|\n"
+            .to_owned();
+    let mut fallen = 0;
+    for path in &paths {
+        let start = Instant::now();
+        let row = match read_mesh(path, &Limits::default()) {
+            Ok(file) => {
+                let (report, repaired) =
+                    (diagnose(&file.mesh), repair(&file.mesh, &RepairOptions::default()));
+                let seconds = start.elapsed().as_secs_f64();
+                let bar = 5.0 * (report.triangles as f64 / 1e5).max(1.0);
+                println!("{}: {} triangles, {seconds:.2} s of {bar:.0}", path.display(), report.triangles);
+                assert!(seconds < bar, "{seconds} s");
+                let falls = falls(&repaired);
+                fallen += usize::from(falls == "comes to rest");
+                format!(
+                    "{} | {} | {} | {} | {} | {falls}",
+                    report.vertices,
+                    report.triangles,
+                    found(&report),
+                    done(&repaired),
+                    found(&repaired.report)
+                )
+            }
+            Err(error) => format!(" | | refused: {error} | | | "),
+        };
+        let name = path.file_name().unwrap().to_string_lossy();
+        writeln!(table, "| {name} | {row} |").unwrap();
+    }
+    assert!(fallen >= 3, "{table}");
+    compare(&table);
+}
+
+/// How many defects there are of each kind.
+fn found(report: &Report) -> String {
+    if report.is_clean() {
+        return "nothing".into();
+    }
+    let kinds = report.defects.chunk_by(|a, b| a.name() == b.name());
+    let told = |kind: &[Defect]| {
+        let more =
+            if matches!(kind[0], Defect::Crossing { .. }) && !report.has_all_crossings { "≥ " } else { "" };
+        format!("{more}{} {}", kind.len(), kind[0].name())
+    };
+    kinds.map(told).collect::<Vec<_>>().join(", ")
+}
+
+fn done(repaired: &Repaired) -> String {
+    let (fillings, others): (Vec<String>, Vec<String>) =
+        repaired.actions.iter().map(ToString::to_string).partition(|action| action.starts_with("filled"));
+    let mut told = others;
+    match fillings.len() {
+        0 => {}
+        1 => told.push("filled 1 hole".into()),
+        count => told.push(format!("filled {count} holes")),
+    }
+    if told.is_empty() { "nothing".into() } else { told.join(", ") }
+}
+
+/// What a solid does that is dropped from a hand above the floor, half a metre in size.
+fn falls(repaired: &Repaired) -> &'static str {
+    if !repaired.report.is_clean() {
+        return "is no solid";
+    }
+    if repaired.report.triangles > MOST_FALLING {
+        return "was not tried";
+    }
+    let shape = Arc::new(Shape::from_mesh(&half_a_metre(&repaired.mesh)).unwrap());
+    let mut world = World::new(Settings::default()).unwrap();
+    world.add(HalfSpace::floor(0.0)).unwrap();
+    let body = RigidBody::new(&shape).position(Vec3::Y * (shape.reach() + 0.1)).mass(1.0);
+    let body = world.add(body).unwrap();
+    for _ in 0..1200 {
+        world.step(1.0 / 60.0).unwrap();
+    }
+    let seen = world.body(body).unwrap();
+    let lowest = seen.surface_positions().iter().map(|position| position.y).fold(f32::INFINITY, f32::min);
+    assert!(seen.velocity().length() < 0.02, "{} m/s", seen.velocity().length());
+    assert!(lowest > -0.02 && seen.center_of_mass().y < 0.5, "{lowest} m, {} m", seen.center_of_mass());
+    "comes to rest"
+}
+
+/// The mesh with a diagonal of half a metre.
+fn half_a_metre(mesh: &TriMesh) -> TriMesh {
+    let (low, high) = mesh
+        .positions
+        .iter()
+        .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)));
+    let fit = |&p: &Vec3| (p - (low + high) / 2.0) * (0.5 / low.distance(high));
+    TriMesh { positions: mesh.positions.iter().map(fit).collect(), triangles: mesh.triangles.clone() }
+}
+
+/// The table in the docs is the one that was found.
+fn compare(table: &str) {
+    println!("{table}");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/meshes.md");
+    let text = fs::read_to_string(&path).unwrap();
+    let (before, old) = text.split_at(text.find("| mesh |").unwrap());
+    if std::env::var_os(UPDATE).is_some() {
+        fs::write(&path, format!("{before}{table}")).unwrap();
+    } else {
+        assert_eq!(old, table, "docs/meshes.md is out of date: {UPDATE}=1 cargo xtask test --only meshes");
+    }
+}
