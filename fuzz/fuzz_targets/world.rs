@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use libfuzzer_sys::fuzz_target;
 use tautline::{
-    Anchor, Attachment, BallJoint, BodyHandle, Cloth, DistanceJoint, Error, FixedJoint, Grip, HalfSpace, HingeJoint,
-    Motion, Quat, QueryFilter, RigidBody, Rope, Settings, Shape, SliderJoint, SoftSolid, Vec3, World,
+    Anchor, Attachment, BallJoint, BodyHandle, Cloth, DistanceJoint, Error, FixedJoint, Grip, HalfSpace,
+    HingeJoint, Motion, Quat, QueryFilter, RigidBody, Rope, Settings, Shape, SliderJoint, SoftSolid, Vec3,
+    World,
 };
 
 /// Most bodies and steps of one input: runs are to be many.
@@ -14,7 +15,12 @@ const MOST_STEPS: u32 = 12;
 
 // Calls of every kind with numbers of every kind. What is refused leaves no trace, and nothing ever panics or is not finite.
 fuzz_target!(|bytes: &[u8]| {
-    let mut calls = Calls { bytes, world: World::new(Settings::default()).expect("the defaults"), bodies: Vec::new(), steps: 0 };
+    let mut calls = Calls {
+        bytes,
+        world: World::new(Settings::default()).expect("the defaults"),
+        bodies: Vec::new(),
+        steps: 0,
+    };
     while !calls.bytes.is_empty() {
         let before = calls.world.snapshot();
         if calls.next().is_err() {
