@@ -20,7 +20,7 @@ fn with(name: &str, assignments: &[&str]) -> Scene {
 }
 
 /// The scenes with what the paper does not have.
-const NOT_FOR_PAPER: [&str; 11] = [
+const NOT_FOR_PAPER: [&str; 13] = [
     "bullets",
     "mixed-pile",
     "chain",
@@ -32,6 +32,8 @@ const NOT_FOR_PAPER: [&str; 11] = [
     "marbles",
     "trampoline",
     "knot",
+    "mesh-drop",
+    "scan-drape",
 ];
 
 /// A scene's document for each solver that it is for.

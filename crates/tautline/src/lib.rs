@@ -73,8 +73,8 @@
 //! 5. [`World::snapshot`] turns everything into bytes, [`World::restore`] turns them back.
 //!
 //! The geometry below can be used without a world: [`geometry::distance::distance`] of two convex hulls,
-//! [`geometry::sphere_tree`], [`mesh::HalfEdgeMesh`], [`mesh::convex_hull`], [`mesh::tetrahedralise`],
-//! [`mesh::MassProperties`].
+//! [`geometry::swept`], [`geometry::sphere_tree`], [`mesh::HalfEdgeMesh`], [`mesh::convex_hull`], [`mesh::decimate`],
+//! [`mesh::tetrahedralise`], [`mesh::Embedding`], [`mesh::MassProperties`].
 //!
 //! # What is promised
 //!

@@ -20,5 +20,5 @@ pub use half_edge::HalfEdgeMesh;
 pub use hull::{ConvexHull, convex_hull};
 pub use mass_properties::MassProperties;
 pub(crate) use mass_properties::{diagonalize, outer};
-pub use tetrahedra::{Tetrahedra, lattice, tetrahedralise};
+pub use tetrahedra::{Tetrahedra, TetrahedraQuality, lattice, tetrahedralise};
 pub use tri_mesh::TriMesh;

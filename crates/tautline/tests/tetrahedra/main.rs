@@ -14,12 +14,16 @@ fn divided(name: &str, mesh: &TriMesh) -> Tetrahedra {
     let start = Instant::now();
     let result = tetrahedralise(mesh).unwrap_or_else(|e| panic!("{name}: {e}"));
     let took = start.elapsed().as_secs_f64() * 1e3;
+    let quality = result.quality();
     println!(
-        "{name:24} {:6} triangles {:6} tetrahedra {:4} interior points  min dihedral {:8.4}°  {took:9.2} ms",
+        "{name:24} {:6} triangles {:6} tetrahedra {:4} interior points  dihedral {:8.4}° to {:8.4}°, roundness {:.3} and {:.3} on the mean  {took:9.2} ms",
         mesh.triangles.len(),
         result.tetrahedra.len(),
         result.interior_points,
-        result.min_dihedral_angle().to_degrees(),
+        quality.min_dihedral_angle.to_degrees(),
+        quality.max_dihedral_angle.to_degrees(),
+        quality.worst_roundness,
+        quality.mean_roundness,
     );
     result.validate(mesh).unwrap_or_else(|e| panic!("{name}: {e}"));
     result

@@ -30,6 +30,7 @@ use crate::{Error, MeshDefect};
 use filling::{Cavity, Filling};
 pub use lattice::lattice;
 use predicates::{Face, Tet};
+pub use quality::TetrahedraQuality;
 
 /// The inside of a closed surface as tetrahedra.
 #[derive(Debug, Clone, PartialEq)]
