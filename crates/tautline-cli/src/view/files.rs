@@ -92,7 +92,9 @@ mod tests {
         assert_eq!(bytes("/").as_deref(), Some(&b"page"[..]));
         assert_eq!(bytes("/assets/a.js?v=1").as_deref(), Some(&b"code"[..]));
         assert_eq!(bytes("/scene.json").as_deref(), Some(&b"{}"[..]));
-        for address in ["/../secret", "//secret", "/assets/../../secret", "/%2e%2e/secret", "", "/assets", "secret"] {
+        for address in
+            ["/../secret", "//secret", "/assets/../../secret", "/%2e%2e/secret", "", "/assets", "secret"]
+        {
             assert!(files.get(address).is_none(), "{address}");
         }
         assert_eq!(files.get("/assets/a.js").unwrap().kind, "text/javascript; charset=utf-8");

@@ -59,7 +59,8 @@ fn fragment(scene: &str, assignments: &[String], files: &mut Files) -> Result<St
         return Ok("#served".to_owned());
     }
     // `find` has accepted them: names and numbers, which need no escaping.
-    let set: String = assignments.iter().map(|assignment| format!("&{}", assignment.replace(' ', ""))).collect();
+    let set: String =
+        assignments.iter().map(|assignment| format!("&{}", assignment.replace(' ', ""))).collect();
     Ok(format!("#scene={scene}{set}"))
 }
 
@@ -78,7 +79,9 @@ fn answer(request: Request, files: &Files, own_names: &[String]) -> std::io::Res
         return request.respond(Response::empty(404));
     };
     let mut response = Response::from_data(bytes);
-    for (name, value) in [("Content-Type", kind), ("Cache-Control", "no-cache"), ("X-Content-Type-Options", "nosniff")] {
+    for (name, value) in
+        [("Content-Type", kind), ("Cache-Control", "no-cache"), ("X-Content-Type-Options", "nosniff")]
+    {
         if let Ok(header) = Header::from_bytes(name, value) {
             response.add_header(header);
         }
