@@ -35,14 +35,18 @@ impl Reader<'_> {
         taken
     }
 
-    /// Frames of `width` numbers, each frame as differences to the one before.
+    /// Frames of `width` numbers, each as what it differs by from going on as in the two before.
     fn rows(&mut self, width: usize, count: usize) -> Vec<Vec<u16>> {
-        let mut row = vec![0_u16; width];
+        let (mut last, mut before) = (vec![0_u16; width], vec![0_u16; width]);
         let rows = (0..count).map(|_| {
             let bytes = self.take(2 * width);
-            let steps = (0..width).map(|k| u16::from_le_bytes([bytes[k], bytes[width + k]]));
-            row = row.iter().zip(steps).map(|(value, step)| value.wrapping_add(step)).collect();
-            row.clone()
+            let number = |k: usize| {
+                let step = u16::from_le_bytes([bytes[k], bytes[width + k]]);
+                last[k].wrapping_mul(2).wrapping_sub(before[k]).wrapping_add(step)
+            };
+            let row: Vec<u16> = (0..width).map(number).collect();
+            before = std::mem::replace(&mut last, row.clone());
+            row
         });
         rows.collect()
     }

@@ -35,7 +35,8 @@ export class Player {
 
   /** Lets time go on by so many seconds; at the end it begins anew. */
   tick(seconds: number): void {
-    if (this.playing) this.time = (this.time + seconds * this.recording.frameRate) % this.recording.frames;
+    // The first picture's time may lie before the clock was first read.
+    if (this.playing && seconds > 0) this.time = (this.time + seconds * this.recording.frameRate) % this.recording.frames;
     const frame = Math.min(this.recording.frames - 1, Math.floor(this.time));
     if (frame === this.shown) return;
     this.shown = frame;

@@ -137,13 +137,15 @@ class Reader {
     return new Uint32Array(this.take(4 * count));
   }
 
-  /** Rows that were written as differences to the row before: all low bytes of a row, then all high ones. */
+  /** Rows that were written as what they differ by from going on as in the two rows before: all low bytes of a row, then
+   * all high ones. */
   rows(width: number, count: number): Uint16Array[] {
-    let before = new Uint16Array(width);
+    let [last, before] = [new Uint16Array(width), new Uint16Array(width)];
     return Array.from({ length: count }, () => {
       const bytes = new Uint8Array(this.take(2 * width));
-      before = before.map((value, index) => value + bytes[index]! + (bytes[width + index]! << 8));
-      return before;
+      const row = last.map((value, index) => 2 * value - before[index]! + bytes[index]! + (bytes[width + index]! << 8));
+      [last, before] = [row, last];
+      return row;
     });
   }
 
