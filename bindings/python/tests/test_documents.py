@@ -51,13 +51,14 @@ def test_the_tutorial_runs(tmp_path: Path) -> None:
     nbclient.NotebookClient(notebook, timeout=120, resources={"metadata": {"path": str(tmp_path)}}).execute()
     shown = [output for cell in notebook.cells for output in cell.get("outputs", [])]
     assert any("data:image/gif" in output.get("data", {}).get("text/html", "") for output in shown)
+    assert any("image/png" in output.get("data", {}) for output in shown), "the figures"
     assert not any(output["output_type"] == "error" for output in shown)
 
 
 def test_the_readmes_programs_run(tmp_path: Path) -> None:
-    text = (PACKAGE / "README.md").read_text(encoding="utf-8")
-    programs = re.findall(r"```python\n(.*?)```", text, flags=re.DOTALL)
-    assert programs
+    texts = [(folder / "README.md").read_text(encoding="utf-8") for folder in (PACKAGE, PACKAGE.parents[1])]
+    programs = re.findall(r"```python\n(.*?)```", "".join(texts), flags=re.DOTALL)
+    assert len(programs) == 3
     for program in programs:
         run(["-c", program], tmp_path)
 
@@ -80,7 +81,7 @@ def test_the_modules_own_example() -> None:
 def test_what_help_says_is_what_the_stubs_say() -> None:
     stubs = ast.parse((Path(tl.__file__).parent / "_engine.pyi").read_text(encoding="utf-8"))
     for node in stubs.body:
-        if isinstance(node, (ast.ClassDef, ast.FunctionDef)) and not node.name.startswith("_"):
+        if isinstance(node, (ast.ClassDef, ast.FunctionDef)) and not node.name.startswith("_") and ast.get_docstring(node):
             compare(getattr(tl._engine, node.name), node, node.name)
         for member in node.body if isinstance(node, ast.ClassDef) else []:
             if isinstance(member, ast.FunctionDef) and not member.name.startswith("_") and ast.get_docstring(member):

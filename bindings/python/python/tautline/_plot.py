@@ -2,21 +2,29 @@
 
 from __future__ import annotations
 
+import io
 from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from matplotlib.figure import Figure
 
+if TYPE_CHECKING:
     from ._engine import Recording
 
 
-def plot(recording: "Recording") -> "Figure":
-    """Energy, contacts and the largest strain over time, one below the other."""
-    from matplotlib.figure import Figure
+class Plot(Figure):
+    """A figure that shows itself in a notebook, whatever backend there is."""
 
+    def _repr_png_(self) -> bytes:
+        picture = io.BytesIO()
+        self.savefig(picture, format="png", dpi=80)
+        return picture.getvalue()
+
+
+def plot(recording: "Recording") -> Figure:
+    """Energy, contacts and the largest strain over time, one below the other."""
     series = recording.series
     time = series["time"]
-    figure = Figure(figsize=(7, 6.5), layout="constrained")
+    figure = Plot(figsize=(7, 6.5), layout="constrained")
     energy, contacts, strain = figure.subplots(3, 1, sharex=True)
     kinetic, potential = series["kinetic_energy"], series["potential_energy"]
     energy.plot(time, kinetic, label="kinetic")

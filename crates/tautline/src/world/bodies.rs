@@ -53,7 +53,6 @@ impl World {
                 self.particles.displacement[i] = body.velocity + body.angular_velocity.cross(arm);
             }
         }
-        self.rigid.invalidate();
         Ok(self.push(Body::new(range, Substance::Rigid(Box::new(rigid)), body.surface, is_fixed)))
     }
 
@@ -103,6 +102,8 @@ impl World {
 
     fn push(&mut self, body: Body) -> BodyHandle {
         self.index.take();
+        // Whatever it is: a snapshot is refused whose lineup knows fewer bodies than there are.
+        self.rigid.invalidate();
         self.bodies.push(body);
         self.wake_around_fixed(self.bodies.len() - 1);
         self.slots.push()

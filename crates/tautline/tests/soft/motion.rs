@@ -83,3 +83,28 @@ fn a_force_on_one_particle_moves_all() {
     let momentum = world.momentum().as_vec3();
     assert!(momentum.distance(expected) < 2e-3 * expected.length(), "{momentum} instead of {expected}");
 }
+
+#[test]
+fn all_particles_are_put_somewhere_as_one_by_one() {
+    let mut world = World::new(Settings::default()).unwrap();
+    let cloth = world.add(Cloth::grid(6, 5, 1.0, 0.8)).unwrap();
+    run(&mut world, 0.2);
+    let mut other = world.clone();
+    let places: Vec<Vec3> = positions(&world, cloth).iter().map(|place| *place * 1.01 + Vec3::Y).collect();
+    world.set_particle_positions(cloth, &places).unwrap();
+    for (particle, &place) in (0..).zip(&places) {
+        other.set_particle_position(cloth, particle, place).unwrap();
+    }
+    assert_eq!(positions(&world, cloth), places);
+    run(&mut world, 0.2);
+    run(&mut other, 0.2);
+    assert_eq!(world.state_hash(), other.state_hash());
+
+    let before = world.state_hash();
+    let mut wrong = places.clone();
+    wrong[7].y = f32::NAN;
+    let error = world.set_particle_positions(cloth, &wrong).unwrap_err();
+    assert!(error.to_string().starts_with("positions[7].y: NaN"), "{error}");
+    assert!(world.set_particle_positions(cloth, &places[1..]).is_err());
+    assert_eq!(world.state_hash(), before);
+}

@@ -1,6 +1,9 @@
 //! Worlds as bytes: restored ones go on bit for bit, and damaged bytes are refused or do no harm.
 
-use tautline::{Error, HalfSpace, Rope, Settings, TrussBody, Vec3, World};
+use std::sync::Arc;
+
+use tautline::body::BodyDescription;
+use tautline::{Cloth, Error, HalfSpace, RigidBody, Rope, Settings, Shape, TrussBody, Vec3, World};
 
 use crate::{DT, cube, mixed_scene, run};
 
@@ -28,6 +31,32 @@ fn a_restored_world_goes_on_bit_for_bit() {
         assert_eq!(original.add(HalfSpace::floor(-1.0)), restored.add(HalfSpace::floor(-1.0)));
     }
     assert!(slept, "the scene should have had a sleeper");
+}
+
+#[test]
+fn a_world_that_a_body_has_just_come_to_is_restored() {
+    let shape = Arc::new(Shape::sphere(0.2).unwrap());
+    let ball = |x: f32| RigidBody::new(&shape).position(Vec3::new(x, 0.2, 0.0));
+    let additions: [BodyDescription; 5] = [
+        HalfSpace::floor(-1.0).into(),
+        ball(2.0).into(),
+        Cloth::grid(4, 4, 1.0, 1.0).position(Vec3::new(4.0, 1.0, 0.0)).into(),
+        Rope::straight(Vec3::new(6.0, 1.0, 0.0), Vec3::new(7.0, 1.0, 0.0), 5).into(),
+        TrussBody::new(&cube(0.4)).position(Vec3::new(9.0, 1.0, 0.0)).into(),
+    ];
+    for body in additions {
+        let mut world = World::new(Settings::default()).unwrap();
+        world.add(HalfSpace::floor(0.0)).unwrap();
+        world.add(ball(0.0)).unwrap();
+        run(&mut world, 10);
+        world.add(body).unwrap();
+        for _ in 0..2 {
+            let mut restored = World::restore(&world.snapshot()).unwrap();
+            run(&mut restored, 10);
+            run(&mut world, 10);
+            assert_eq!(world.state_hash(), restored.state_hash());
+        }
+    }
 }
 
 #[test]
