@@ -122,3 +122,42 @@ fn parse_beside(
         Format::Gltf => gltf::parse(bytes, limits, folder),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SEEDS: [(Format, &[u8]); 9] = [
+        (Format::Obj, include_bytes!("../../../../fuzz/seeds/obj/mixed.obj")),
+        (Format::Obj, include_bytes!("../../../../fuzz/seeds/obj/concave.obj")),
+        (Format::Stl, include_bytes!("../../../../fuzz/seeds/stl/text.stl")),
+        (Format::Stl, include_bytes!("../../../../fuzz/seeds/stl/binary.stl")),
+        (Format::Ply, include_bytes!("../../../../fuzz/seeds/ply/text.ply")),
+        (Format::Ply, include_bytes!("../../../../fuzz/seeds/ply/little.ply")),
+        (Format::Ply, include_bytes!("../../../../fuzz/seeds/ply/big.ply")),
+        (Format::Gltf, include_bytes!("../../../../fuzz/seeds/gltf/binary.glb")),
+        (Format::Gltf, include_bytes!("../../../../fuzz/seeds/gltf/text.gltf")),
+    ];
+
+    /// Miri runs this too, over fewer of them.
+    #[test]
+    fn seeds_with_a_byte_changed_or_cut_off_are_read_or_refused() {
+        let stride = if cfg!(miri) { 61 } else { 1 };
+        for (format, seed) in SEEDS {
+            assert!(parse(seed, format, &Limits::default()).is_ok());
+            for place in (0..seed.len()).step_by(stride) {
+                let mut changed = seed.to_vec();
+                changed[place] ^= 1 << (place % 8);
+                for bytes in [&seed[..place], &changed] {
+                    if let Ok(MeshFile { mesh, .. }) = parse(bytes, format, &Limits::default()) {
+                        assert!(mesh.positions.iter().all(|position| position.is_finite()));
+                        let count = mesh.positions.len();
+                        assert!(
+                            mesh.triangles.as_flattened().iter().all(|&vertex| (vertex as usize) < count)
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
