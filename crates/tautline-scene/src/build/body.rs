@@ -12,7 +12,7 @@ use super::cue::Cue;
 use super::joint::joint;
 use super::rigid::{rigid_body, surface, truss_body};
 use super::shape::{Make, Solids};
-use super::soft::soft_solid;
+use super::soft::SoftSolids;
 use super::wall::{self, draw_walls};
 use super::{Look, Part};
 use crate::document::{
@@ -52,6 +52,7 @@ pub(crate) struct Builder {
     /// Every body that was added, in that order.
     pub(crate) parts: Vec<Part>,
     solids: Solids,
+    soft_solids: SoftSolids,
     /// The bodies by all that the document can call them, with their indices in it; rooms are many.
     bodies: BTreeMap<BodyRef, (usize, BodyHandle)>,
     names: BTreeSet<String>,
@@ -65,6 +66,7 @@ impl Builder {
             world,
             parts: Vec::new(),
             solids: Solids::new(has_trusses),
+            soft_solids: SoftSolids::default(),
             bodies: BTreeMap::new(),
             names: BTreeSet::new(),
             colored: 0,
@@ -162,7 +164,7 @@ impl Builder {
     }
 
     fn add_soft_solid(&mut self, name: String, solid: &SoftSolid) -> Result<(), Refusal> {
-        let (soft, skin) = soft_solid(solid)?;
+        let (soft, skin) = self.soft_solids.get(solid)?;
         let body = self.world.add(soft)?;
         let color = self.color(solid.color);
         self.push(name, color, body, skin.map_or(Look::Sheet, Look::Skin));

@@ -1,8 +1,9 @@
 //! Soft solids of a document to soft solids of the engine.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use tautline::mesh::{Embedding, TriMesh, decimate, tetrahedralise};
+use tautline::mesh::{Embedding, Tetrahedra, TriMesh, decimate, tetrahedralise};
 use tautline::{Error, Vec3};
 
 use super::body::quaternion;
@@ -18,27 +19,43 @@ pub struct Skin {
     pub embedding: Embedding,
 }
 
-/// What the world is to have of it, and its skin if that is another.
-pub(super) fn soft_solid(document: &SoftSolid) -> Result<(tautline::SoftSolid, Option<Arc<Skin>>), Error> {
-    let (solid, skin) = match (&document.shape, document.coarse_triangles) {
-        (&Shape::Box { size }, _) => {
-            let cells = document.cells.unwrap_or(SoftSolid::CELLS);
-            (tautline::SoftSolid::cuboid(Vec3::from(size) / 2.0, cells), None)
-        }
-        (shape, None) => (tautline::SoftSolid::from_mesh(mesh_of(shape)?), None),
-        (shape, Some(triangles)) => {
-            let (solid, skin) = coarse(&mesh_of(shape)?, triangles)?;
-            (solid, Some(Arc::new(skin)))
-        }
-    };
-    Ok((with_traits(solid, document), skin))
+/// What is simulated of a fine surface, and what is drawn.
+type Coarse = (Tetrahedra, Arc<Skin>);
+
+/// Soft solids of documents to those of the engine. Coarser ones are made once each, also those that are refused.
+#[derive(Debug, Default)]
+pub(super) struct SoftSolids {
+    coarse: BTreeMap<String, Result<Coarse, Error>>,
 }
 
-fn coarse(fine: &TriMesh, triangles: u32) -> Result<(tautline::SoftSolid, Skin), Error> {
-    let solid = tetrahedralise(&decimate(fine, triangles as usize)?.mesh)?;
-    let embedding = Embedding::new(&solid, &fine.positions)?;
-    let skin = Skin { triangles: fine.triangles.clone(), embedding };
-    Ok((tautline::SoftSolid::from_tetrahedra(solid), skin))
+impl SoftSolids {
+    /// What the world is to have of it, and its skin if that is another.
+    pub(super) fn get(
+        &mut self,
+        document: &SoftSolid,
+    ) -> Result<(tautline::SoftSolid, Option<Arc<Skin>>), Error> {
+        let (solid, skin) = match (&document.shape, document.coarse_triangles) {
+            (&Shape::Box { size }, _) => {
+                let cells = document.cells.unwrap_or(SoftSolid::CELLS);
+                (tautline::SoftSolid::cuboid(Vec3::from(size) / 2.0, cells), None)
+            }
+            (shape, None) => (tautline::SoftSolid::from_mesh(mesh_of(shape)?), None),
+            (shape, Some(triangles)) => {
+                // Shapes of the same numbers have the same text, since numbers are written exactly.
+                let key = serde_json::to_string(&(shape, triangles)).unwrap_or_default();
+                let made = self.coarse.entry(key).or_insert_with(|| coarse(&mesh_of(shape)?, triangles));
+                let (tetrahedra, skin) = made.clone()?;
+                (tautline::SoftSolid::from_tetrahedra(tetrahedra), Some(skin))
+            }
+        };
+        Ok((with_traits(solid, document), skin))
+    }
+}
+
+fn coarse(fine: &TriMesh, triangles: u32) -> Result<Coarse, Error> {
+    let tetrahedra = tetrahedralise(&decimate(fine, triangles as usize)?.mesh)?;
+    let embedding = Embedding::new(&tetrahedra, &fine.positions)?;
+    Ok((tetrahedra, Arc::new(Skin { triangles: fine.triangles.clone(), embedding })))
 }
 
 fn with_traits(solid: tautline::SoftSolid, document: &SoftSolid) -> tautline::SoftSolid {

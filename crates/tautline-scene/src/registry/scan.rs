@@ -16,6 +16,8 @@ pub(super) const SCAN_DRAPE: NamedScene = NamedScene {
 
 /// Of the head's middle over the floor, in m.
 const HEIGHT: f32 = 0.85;
+/// Of the cloth, in m: it leaves the face free.
+const SIDE: f32 = 1.1;
 /// How far a scanned vertex is off, in m.
 const NOISE: f32 = 0.001;
 
@@ -37,10 +39,10 @@ fn scan_drape(p: &Parameters) -> Scene {
     };
     let side = p.count("n");
     let cloth = Cloth {
-        surface: Surface::Grid { columns: side, rows: side, width: 1.8, depth: 1.8 },
-        position: [0.05, HEIGHT + 0.65, 0.0],
+        surface: Surface::Grid { columns: side, rows: side, width: SIDE, depth: SIDE },
+        position: [-0.12, HEIGHT + 0.65, 0.0],
         mass: 0.5,
-        color: Some(Color([150, 62, 70])),
+        color: Some(Color([52, 92, 150])),
         ..Cloth::default()
     };
     let bodies = vec![

@@ -12,8 +12,8 @@ type Bump = ([f32; 3], f32, f32);
 /// Body, head with two long ears, tail, and flat where it sits.
 const RABBIT: [Bump; 8] = [
     ([0.55, 0.75, 0.0], 0.75, 9.0),
-    ([0.34, 0.93, 0.24], 0.9, 60.0),
-    ([0.34, 0.93, -0.24], 0.9, 60.0),
+    ([0.3, 0.93, 0.26], 0.75, 30.0),
+    ([0.3, 0.93, -0.26], 0.75, 30.0),
     ([0.85, 0.5, 0.0], 0.22, 30.0),
     ([-0.95, -0.25, 0.0], 0.35, 30.0),
     ([0.6, -0.75, 0.4], 0.3, 14.0),
@@ -37,9 +37,9 @@ const HEAD: [Bump; 12] = [
     ([0.3, -0.75, 0.0], -0.08, 10.0),
 ];
 
-/// Something like a rabbit, 1 m from its paws to the tips of its ears, with its middle near the origin.
+/// Something like a rabbit of 0.7 m, with its middle near the origin.
 pub(super) fn rabbit(subdivisions: u32) -> MeshSource {
-    source(bumpy(subdivisions, 0.35, &RABBIT))
+    source(bumpy(subdivisions, 0.24, &RABBIT))
 }
 
 /// A head of about 0.8 m looking along X, as a scanner sees it: every vertex is off by up to `noise` (m).
