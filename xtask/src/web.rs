@@ -38,7 +38,11 @@ pub(crate) fn web(project: &Project) -> Result<Outcome, String> {
     run(npm(project, &["test"]).current_dir(&package).env("TAUTLINE", project.tautline("release")))?;
     let size = gzipped_size(project)?;
     let note = format!("the engine is {} kB gzipped", size / 1000);
-    if size > MOST_BYTES { Err(format!("{note}, more than {}", MOST_BYTES / 1000)) } else { Ok(Outcome::Noted(note)) }
+    if size > MOST_BYTES {
+        Err(format!("{note}, more than {}", MOST_BYTES / 1000))
+    } else {
+        Ok(Outcome::Noted(note))
+    }
 }
 
 fn npm(project: &Project, arguments: &[&str]) -> std::process::Command {

@@ -1,8 +1,8 @@
 //! Scene documents and the named scenes, without a world.
 
 use serde_json::{Value, json};
-use tautline_scene::document::{Format, SCHEMA, Scene, Solver, json_of_json5, parse_part};
 use tautline_scene::Error;
+use tautline_scene::document::{Format, SCHEMA, Scene, Solver, json_of_json5, parse_part};
 use tautline_scene::registry::{self, NamedScene, Parameter};
 use wasm_bindgen::prelude::*;
 

@@ -199,7 +199,11 @@ impl Builder {
     }
 
     /// Adds an attachment between bodies that have been added; `bodies` are those of the document.
-    pub(crate) fn attach(&mut self, document: &Attachment, bodies: &[Body]) -> Result<AttachmentHandle, Error> {
+    pub(crate) fn attach(
+        &mut self,
+        document: &Attachment,
+        bodies: &[Body],
+    ) -> Result<AttachmentHandle, Error> {
         let anchor_of = |end: &Anchor| {
             let found = end.body.as_ref().map(|body| self.find("body", body)).transpose()?;
             anchor(&self.world, &end.at, found.map(|(index, body)| (body, &bodies[index])))

@@ -86,9 +86,12 @@ impl Settings {
                 tautline::BroadPhase::SortAndSweep => BroadPhase::SortAndSweep,
                 tautline::BroadPhase::AllPairs => BroadPhase::AllPairs,
             }),
-            sleep: Some(settings.sleep.map_or(Sleep::Never, |tautline::Sleep { speed, seconds }| {
-                Sleep::After { speed, seconds }
-            })),
+            sleep: Some(
+                settings.sleep.map_or(Sleep::Never, |tautline::Sleep { speed, seconds }| Sleep::After {
+                    speed,
+                    seconds,
+                }),
+            ),
         }
     }
 }
@@ -100,7 +103,12 @@ mod tests {
     #[test]
     fn settings_in_force_make_the_same_settings() {
         for solver in [Solver::Default, Solver::Paper] {
-            let engine = of(&Settings { solver, damping: Some(0.5), sleep: Some(Sleep::Never), ..Settings::default() });
+            let engine = of(&Settings {
+                solver,
+                damping: Some(0.5),
+                sleep: Some(Sleep::Never),
+                ..Settings::default()
+            });
             assert_eq!(of(&Settings::in_force(&engine, solver)), engine);
         }
     }

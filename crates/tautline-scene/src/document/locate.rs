@@ -48,7 +48,9 @@ impl<'a> Scanner<'a> {
             let length = match rest {
                 _ if rest.starts_with("//") => rest.find('\n').unwrap_or(rest.len()),
                 _ if rest.starts_with("/*") => rest.find("*/").map_or(rest.len(), |end| end + 2),
-                _ => rest.len() - rest.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}').len(),
+                _ => {
+                    rest.len() - rest.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}').len()
+                }
             };
             if length == 0 {
                 return;

@@ -105,7 +105,8 @@ impl LiveScene {
     /// otherwise: that takes another scene.
     pub fn set_settings(&mut self, changed: Settings) -> Result<(), Error> {
         if changed.solver != self.scene.settings.solver {
-            let message = "cannot change while a scene runs: build the scene with the other solver".to_owned();
+            let message =
+                "cannot change while a scene runs: build the scene with the other solver".to_owned();
             return Err(Error::Invalid(vec![Problem { path: "settings.solver".to_owned(), message }]));
         }
         Scene { settings: changed.clone(), ..Scene::default() }.check()?;
