@@ -44,6 +44,11 @@ impl Failure {
         self
     }
 
+    /// Forgets where in a text its problems are.
+    pub(crate) fn forget_places(&mut self) {
+        self.places.fill(None);
+    }
+
     /// Its problems, each as an object.
     pub(crate) fn problems(&self) -> Value {
         let told = |(problem, place): (&Problem, &Option<(usize, usize)>)| {
