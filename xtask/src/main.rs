@@ -3,6 +3,7 @@
 mod command;
 mod files;
 mod hashes;
+mod page;
 mod project;
 mod readme;
 mod setup;
@@ -23,7 +24,7 @@ fn main() -> ExitCode {
         Err(problem) => return refuse(&problem),
     };
     match arguments[..] {
-        ["web"] => match web::build(&project) {
+        ["web"] => match web::build(&project).and_then(|()| page::build(&project)) {
             Ok(()) => ExitCode::SUCCESS,
             Err(problem) => refuse(&problem),
         },
@@ -47,7 +48,7 @@ fn refuse(message: &str) -> ExitCode {
 
 fn usage() -> String {
     let mut text = "cargo xtask test               everything that must pass\n\
-                    cargo xtask web                builds the npm package\n\
+                    cargo xtask web                builds the npm package and the playground\n\
                     cargo xtask test --only NAME   one step of the test:\n"
         .to_owned();
     for step in STEPS {

@@ -49,15 +49,19 @@ pub(crate) fn web(project: &Project) -> Result<Outcome, String> {
     run(npm(project, &["test"]).current_dir(&package).env("TAUTLINE", project.tautline("release")))?;
     let size = gzipped_size(project)?;
     let note = format!("the engine is {} kB gzipped", size / 1000);
-    if size > MOST_BYTES { Err(format!("{note}, more than {}", MOST_BYTES / 1000)) } else { Ok(Outcome::Noted(note)) }
+    if size > MOST_BYTES {
+        Err(format!("{note}, more than {}", MOST_BYTES / 1000))
+    } else {
+        Ok(Outcome::Noted(note))
+    }
 }
 
-fn npm(project: &Project, arguments: &[&str]) -> std::process::Command {
+pub(crate) fn npm(project: &Project, arguments: &[&str]) -> std::process::Command {
     program(project, "npm", arguments)
 }
 
 /// As the lock file says, unless they are there.
-fn install_packages(project: &Project, package: &Path) -> Result<(), String> {
+pub(crate) fn install_packages(project: &Project, package: &Path) -> Result<(), String> {
     let changed = |file: &str| package.join(file).metadata().and_then(|data| data.modified()).ok();
     let installed = changed("node_modules/.package-lock.json");
     if installed.is_some() && installed >= changed("package-lock.json") {
@@ -82,7 +86,11 @@ fn write_glue(project: &Project) -> Result<(), String> {
 fn optimise(project: &Project, package: &Path) -> Result<(), String> {
     let engine = package.join("src/engine/engine_bg.wasm");
     let mut tool = program(project, package.join("node_modules/.bin/wasm-opt"), &["-O3"]);
-    tool.args(FEATURES).args(["--strip-debug", "--strip-producers"]).arg(&engine).arg("--output").arg(&engine);
+    tool.args(FEATURES)
+        .args(["--strip-debug", "--strip-producers"])
+        .arg(&engine)
+        .arg("--output")
+        .arg(&engine);
     run(&mut tool)
 }
 
