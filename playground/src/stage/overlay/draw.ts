@@ -36,7 +36,8 @@ export class Overlay {
     this.view.unpaint();
     const hides = inspection !== undefined && ["spheres", "gjk", "contacts"].includes(inspection.kind);
     this.view.setGhostly(hides);
-    if (inspection && places) this.group.add(...this.objectsOf(inspection, places, iteration));
+    if (!inspection || !places) return;
+    for (const object of this.objectsOf(inspection, places, iteration)) this.group.add(object);
   }
 
   private objectsOf(inspection: Inspection, places: Places, iteration: number): THREE.Object3D[] {
