@@ -43,7 +43,7 @@ export default defineConfig({
     outDir: "dist-replay",
     modulePreload: false,
     cssCodeSplit: false,
-    rolldownOptions: { input: "replay.html" },
+    rolldownOptions: { input: "recording.html" },
   },
   plugins: [inline()],
 });

@@ -4,6 +4,7 @@ mod command;
 mod files;
 mod hashes;
 mod meshes;
+mod page;
 mod project;
 mod python;
 mod readme;
@@ -25,7 +26,7 @@ fn main() -> ExitCode {
         Err(problem) => return refuse(&problem),
     };
     match arguments[..] {
-        ["web"] => match web::build(&project) {
+        ["web"] => match web::build(&project).and_then(|()| page::build(&project)) {
             Ok(()) => ExitCode::SUCCESS,
             Err(problem) => refuse(&problem),
         },
@@ -49,7 +50,7 @@ fn refuse(message: &str) -> ExitCode {
 
 fn usage() -> String {
     let mut text = "cargo xtask test               everything that must pass\n\
-                    cargo xtask web                builds the npm package\n\
+                    cargo xtask web                builds the npm package and the playground\n\
                     cargo xtask test --only NAME   one step of the test:\n"
         .to_owned();
     for step in STEPS {

@@ -9,7 +9,7 @@ use crate::tidy::unsafe_lines;
 /// The Khronos validator of GLB files, as an npm package.
 const VALIDATOR: &str = "tests/gltf-validator";
 /// On Debian.
-const INSTALL_NODE: &str = "apt-get install --yes --no-install-recommends nodejs npm";
+const NODE: &[&str] = &["nodejs", "npm"];
 
 /// rustfmt, clippy, Node and the npm packages that tests use.
 pub(crate) fn setup(project: &Project) -> Result<Outcome, String> {
@@ -19,9 +19,9 @@ pub(crate) fn setup(project: &Project) -> Result<Outcome, String> {
         }
     }
     if !node_is_there()
-        && let Err(problem) = install_node(project)
+        && let Err(problem) = install_on_debian(project, NODE)
     {
-        return Ok(Outcome::LeftOut(problem));
+        return Ok(Outcome::LeftOut(format!("Node: {problem}")));
     }
     match install_validator(project) {
         Ok(()) => Ok(Outcome::Passed),
@@ -45,13 +45,14 @@ fn validator_is_there(project: &Project) -> bool {
     project.root.join(VALIDATOR).join("node_modules/gltf-validator").is_dir()
 }
 
-fn install_node(project: &Project) -> Result<(), String> {
+/// Installs packages of Debian, as root; elsewhere says what would.
+pub(crate) fn install_on_debian(project: &Project, packages: &[&str]) -> Result<(), String> {
+    let install = [&["install", "--yes", "--no-install-recommends"], packages].concat();
     if !(exists("apt-get") && is_root(project)) {
-        return Err(format!("Node is missing; on Debian this installs it: sudo {INSTALL_NODE}"));
+        return Err(format!("not installed; on Debian this does it: sudo apt-get {}", install.join(" ")));
     }
     run(&mut program(project, "apt-get", &["update", "--quiet"]))?;
-    let words: Vec<&str> = INSTALL_NODE.split(' ').collect();
-    run(program(project, words[0], &words[1..]).env("DEBIAN_FRONTEND", "noninteractive"))
+    run(program(project, "apt-get", &install).env("DEBIAN_FRONTEND", "noninteractive"))
 }
 
 fn is_root(project: &Project) -> bool {

@@ -45,12 +45,12 @@ pub(crate) fn web(project: &Project) -> Result<Outcome, String> {
     }
 }
 
-fn npm(project: &Project, arguments: &[&str]) -> std::process::Command {
+pub(crate) fn npm(project: &Project, arguments: &[&str]) -> std::process::Command {
     program(project, "npm", arguments)
 }
 
 /// As the lock file says, unless they are there.
-fn install_packages(project: &Project, package: &Path) -> Result<(), String> {
+pub(crate) fn install_packages(project: &Project, package: &Path) -> Result<(), String> {
     let changed = |file: &str| package.join(file).metadata().and_then(|data| data.modified()).ok();
     let installed = changed("node_modules/.package-lock.json");
     if installed.is_some() && installed >= changed("package-lock.json") {

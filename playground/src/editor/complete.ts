@@ -38,7 +38,7 @@ export function completeFrom(schema: Schema): (context: CompletionContext) => Co
 function names(schema: Schema, state: EditorState, object: SyntaxNode | undefined, range: Range, node: SyntaxNode): CompletionResult | null {
   if (!object) return null;
   const known = new Set(object.getChildren("Property").filter((child) => child.from !== node.parent?.from).map((child) => nameOf(state, child)));
-  const hasColon = node.name === "PropertyName" && node.parent?.lastChild?.name !== "PropertyName";
+  const hasColon = node.name === "PropertyName" && node.parent?.getChild(":") != null;
   const options = namesAt(schema, pathOf(state, object))
     .filter(({ name }) => !known.has(name))
     .map((named) => option(schema, named, hasColon));

@@ -43,8 +43,8 @@ export function insidePanel(playground: Playground, iteration: Iteration): HTMLE
     "section",
     { className: "panel" },
     el("p", { className: "hint" }, "See how it works: pause, then step, to see it move by move."),
-    el("fieldset", {}, el("legend", {}, "Show"), ...radios),
     details,
+    el("fieldset", {}, el("legend", {}, "Show"), ...radios),
   );
 }
 

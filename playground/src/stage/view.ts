@@ -76,7 +76,7 @@ export class View {
       const [first] = group;
       if (first?.mesh) this.solids.push(new Solids(first.mesh, group, first.look));
     }
-    this.world.add(...[...this.solids, ...this.sheets, ...this.threads].map((thing) => thing.object));
+    for (const thing of [...this.solids, ...this.sheets, ...this.threads]) this.world.add(thing.object);
   }
 
   update(places: Places): void {

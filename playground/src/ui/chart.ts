@@ -29,7 +29,7 @@ export class Chart {
       mark.style.background = `var(${line.color})`;
       return el("li", {}, mark, line.name, this.values[index]);
     });
-    this.element = el("figure", { className: "chart" }, el("figcaption", {}, `${title}, ${unit}`), this.canvas, el("ul", {}, ...legend));
+    this.element = el("figure", { className: "chart" }, el("figcaption", {}, unit ? `${title}, ${unit}` : title), this.canvas, el("ul", {}, ...legend));
   }
 
   add(values: number[]): void {

@@ -36,7 +36,8 @@ export class Overlay {
     this.view.unpaint();
     const hides = inspection !== undefined && ["spheres", "gjk", "contacts"].includes(inspection.kind);
     this.view.setGhostly(hides);
-    if (inspection && places) this.group.add(...this.objectsOf(inspection, places, iteration));
+    if (!inspection || !places) return;
+    for (const object of this.objectsOf(inspection, places, iteration)) this.group.add(object);
   }
 
   private objectsOf(inspection: Inspection, places: Places, iteration: number): THREE.Object3D[] {
@@ -142,7 +143,7 @@ function boxes(numbers: Float32Array): THREE.Object3D {
 
 function contacts(found: readonly ContactPoint[]): THREE.Object3D[] {
   const lines = new Lines();
-  const points = new Points(7);
+  const points = new Points(6);
   for (const { pointA, pointB, normal: n, featureA, featureB } of found) {
     points.point(pointA, ON_A).point(pointB, ON_B);
     const tip: Vec3 = [pointB[0] + n[0] * NORMAL, pointB[1] + n[1] * NORMAL, pointB[2] + n[2] * NORMAL];

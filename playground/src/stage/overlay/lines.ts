@@ -55,6 +55,11 @@ export class Points {
       depthTest: false,
       transparent: true,
     });
+    // Round ones, out of squares.
+    material.onBeforeCompile = (shader) => {
+      const place = "#include <clipping_planes_fragment>";
+      shader.fragmentShader = shader.fragmentShader.replace(place, `if (length(gl_PointCoord - 0.5) > 0.5) discard;\n${place}`);
+    };
     const points = new THREE.Points(colored(this.positions, this.colors), material);
     points.renderOrder = 6;
     points.frustumCulled = false;
