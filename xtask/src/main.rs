@@ -9,6 +9,7 @@ mod readme;
 mod setup;
 mod steps;
 mod tidy;
+mod web;
 
 use std::process::ExitCode;
 
@@ -23,6 +24,10 @@ fn main() -> ExitCode {
         Err(problem) => return refuse(&problem),
     };
     match arguments[..] {
+        ["web"] => match web::build(&project) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(problem) => refuse(&problem),
+        },
         ["test"] => steps::run(&project, STEPS),
         ["test", "--only", name] => match STEPS.iter().position(|step| step.name == name) {
             Some(k) => steps::run(&project, &STEPS[k..=k]),
@@ -43,7 +48,8 @@ fn refuse(message: &str) -> ExitCode {
 
 fn usage() -> String {
     let mut text = "cargo xtask test               everything that must pass\n\
-                    cargo xtask test --only NAME   one step of it:\n"
+                    cargo xtask web                builds the npm package\n\
+                    cargo xtask test --only NAME   one step of the test:\n"
         .to_owned();
     for step in STEPS {
         text += &format!("\n  {:9} {}", step.name, step.about);

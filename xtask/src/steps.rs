@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use crate::command::{cargo, run as run_command};
 use crate::project::Project;
-use crate::{hashes, python, readme, setup, tidy};
+use crate::{hashes, python, readme, setup, tidy, web};
 
 /// One thing that must pass.
 pub(crate) struct Step {
@@ -32,6 +32,7 @@ pub(crate) const STEPS: &[Step] = &[
     Step { name: "docs", about: "no warnings", check: docs },
     Step { name: "tests", about: "all tests of the workspace", check: tests },
     Step { name: "hashes", about: "debug, release, 1 and 2 threads: the same bits", check: hashes::hashes },
+    Step { name: "web", about: "the npm package: builds, is small, has the same bits", check: web::web },
     Step { name: "examples", about: "each runs and what it asserts holds", check: readme::examples },
     Step { name: "readme", about: "its commands, its scene and its program", check: readme::readme },
     Step {

@@ -6,7 +6,8 @@ use numpy::PyArray2;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use tautline_scene::document::{self, Format};
-use tautline_scene::{load, mesh_file, registry};
+use tautline_scene::mesh_file::{self, Limits};
+use tautline_scene::{load, registry};
 
 use crate::arrays;
 use crate::errors::{Failure, Outcome};
@@ -138,9 +139,10 @@ pub(crate) fn scenes(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
 
 type MeshArrays<'py> = (Bound<'py, PyArray2<f32>>, Bound<'py, PyArray2<u32>>);
 
-/// The positions (n, 3) in m and triangles (m, 3) of a mesh file: ``.obj`` or ``.stl``.
+/// The positions (n, 3) in m and triangles (m, 3) of a mesh file: ``.obj``, ``.stl``, ``.ply``, ``.gltf`` or ``.glb``.
 #[pyfunction]
 pub(crate) fn read_mesh(py: Python<'_>, path: PathBuf) -> Outcome<MeshArrays<'_>> {
-    let mesh = py.detach(|| mesh_file::read(&path))?;
+    let file = py.detach(|| mesh_file::read_mesh(&path, &Limits::default()))?;
+    let mesh = file.without_unused_vertices();
     Ok((arrays::vectors(py, &mesh.positions)?, arrays::corners(py, &mesh.triangles)?))
 }

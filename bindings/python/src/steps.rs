@@ -221,15 +221,11 @@ impl Tape {
         let mut state = world.lock(py);
         let scene = &mut state.scene;
         scene.draw_walls();
-        let recorder = if record {
-            // A frame's rate follows from the scene's own step: it is told the one that is taken.
-            let view = BuiltScene { dt: plan.dt, record_every: plan.every, ..scene.clone() };
-            Some(Recorder::new(&view))
-        } else {
-            None
-        };
+        let frame_rate = 1.0 / (plan.dt * plan.every as f32);
+        let recorder =
+            record.then(|| Recorder::new(&scene.name, frame_rate, &scene.parts, &scene.world)).transpose();
         drop(state);
-        let mut tape = Self { steps: 0, recorder: recorder.transpose()?, series: Series::default() };
+        let mut tape = Self { steps: 0, recorder: recorder?, series: Series::default() };
         let noted = tape.note(&world.lock(py).scene, 0);
         noted?;
         Ok(tape)

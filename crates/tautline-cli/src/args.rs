@@ -21,6 +21,8 @@ pub(crate) enum Command {
     List(List),
     /// Run a scene and write pictures, animations and statistics.
     Run(Run),
+    /// Open the playground in the browser: scenes to grab, change and look into.
+    View(View),
     /// Check a scene file and name every problem in it. Exit code 0: none, 1: some, 2: no such file.
     Check(Check),
     /// Measure the time of a step, phase by phase.
@@ -54,8 +56,8 @@ pub(crate) struct Run {
     /// How many threads to use; all cores if absent. The result does not depend on it.
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=256))]
     pub(crate) threads: Option<u16>,
-    /// Write an animation (.glb, .gif, .mp4), a picture (.png), a point cache (.pc2), arrays (.npz) or a mesh for each
-    /// frame (.obj, .ply); may be repeated.
+    /// Write an animation (.glb, .gif, .mp4), a page that plays it (.html), a picture (.png), a point cache (.pc2), arrays
+    /// (.npz) or a mesh for each frame (.obj, .ply); may be repeated.
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Vec<PathBuf>,
     /// Write the statistics of the run.
@@ -64,6 +66,24 @@ pub(crate) struct Run {
     /// Print the statistics as JSON, and no progress.
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct View {
+    /// A named scene (see `tautline list`), or a scene file: .json, .json5 or .toml.
+    pub(crate) scene: Option<String>,
+    /// Set a parameter of a named scene; may be repeated.
+    #[arg(long, value_name = "NAME=VALUE", requires = "scene")]
+    pub(crate) set: Vec<String>,
+    /// The port to serve it at; a free one if absent.
+    #[arg(long, default_value_t = 0, hide_default_value = true)]
+    pub(crate) port: u16,
+    /// Where the built playground is; `playground/dist` of the source folder if absent.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) page: Option<PathBuf>,
+    /// Only print the address.
+    #[arg(long)]
+    pub(crate) no_open: bool,
 }
 
 #[derive(Debug, Args)]

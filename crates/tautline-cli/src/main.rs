@@ -13,6 +13,7 @@ mod reproduce;
 mod run;
 mod scene;
 mod validate;
+mod view;
 
 use std::process::ExitCode;
 
@@ -26,6 +27,7 @@ fn main() -> ExitCode {
         None => demo::demo(),
         Some(Command::List(list)) => list::list(list),
         Some(Command::Run(run)) => run::run(run),
+        Some(Command::View(view)) => view::view(view),
         Some(Command::Check(check)) => check::check(check),
         Some(Command::Bench(bench)) => bench::bench(bench),
         Some(Command::Reproduce(reproduce)) => reproduce::reproduce(reproduce),

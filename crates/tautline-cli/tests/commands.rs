@@ -87,7 +87,7 @@ fn bad_arguments_are_refused_with_code_2_and_one_line() {
         (&["run", "tower", "--set", "m=1"], "no parameter named \"m\""),
         (&["run", "tower", "--set", "n=1e9"], "n: \"1e9\""),
         (&["run", "tower", "--set", "n=NaN"], "n: \"NaN\""),
-        (&["run", "tower", "--out", "tower.avi"], ".gif, .glb, .mp4"),
+        (&["run", "tower", "--out", "tower.avi"], ".gif, .glb, .html, .mp4"),
         (&["run", "missing.json"], "missing.json"),
         (&["check", "missing.json"], "missing.json"),
         (&["bench", "nowhere"], "no scene named \"nowhere\""),

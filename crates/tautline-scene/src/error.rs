@@ -3,6 +3,8 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use crate::mesh_file::{Place, Refusal};
+
 /// Why a scene or a file was refused.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -22,14 +24,12 @@ pub enum Error {
     #[error("{}", list(.0))]
     Invalid(Vec<Problem>),
     /// A mesh file that is malformed.
-    #[error("{}{}: {message}", path.display(), suffix(*line))]
+    #[error("{}{}: {}", path.display(), place(refusal), refusal.message)]
     Mesh {
         /// The file.
         path: PathBuf,
-        /// The line, from 1, where the format has lines.
-        line: Option<usize>,
-        /// What is wrong and what would be right.
-        message: String,
+        /// What is wrong, and where in it.
+        refusal: Refusal,
     },
     /// A name that no scene has.
     #[error("there is no scene named {name:?}; there are: {}", known.join(", "))]
@@ -132,6 +132,19 @@ pub struct Problem {
     pub message: String,
 }
 
+impl Problem {
+    /// The same problem of a part of something, whose path begins so.
+    pub(crate) fn within(self, start: &str) -> Self {
+        Self { path: format!("{start}{}", self.path), ..self }
+    }
+
+    /// The same problem of a part by itself, whose path begins so in the whole.
+    pub(crate) fn without(self, start: &str) -> Self {
+        let path = self.path.strip_prefix(start).map(str::to_owned);
+        Self { path: path.unwrap_or(self.path), ..self }
+    }
+}
+
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.path, self.message)
@@ -143,7 +156,11 @@ fn list(problems: &[Problem]) -> String {
     problems.iter().map(Problem::to_string).collect::<Vec<_>>().join("\n")
 }
 
-/// `:12` for line 12, nothing without a line.
-fn suffix(line: Option<usize>) -> String {
-    line.map_or_else(String::new, |line| format!(":{line}"))
+/// `:12` for line 12, as editors understand it; other places in words.
+fn place(refusal: &Refusal) -> String {
+    match &refusal.place {
+        Some(Place::Line(line)) => format!(":{line}"),
+        Some(place) => format!(": {place}"),
+        None => String::new(),
+    }
 }

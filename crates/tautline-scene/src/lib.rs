@@ -16,6 +16,7 @@ pub mod document;
 mod error;
 pub mod export;
 pub mod judge;
+pub mod live;
 mod load;
 pub mod mesh_file;
 pub mod random;

@@ -7,7 +7,7 @@ use tautline::mesh::TriMesh;
 
 use crate::document::{Body, Format, MeshFile, MeshSource, Scene, Shape, Surface, limits, parse};
 use crate::error::{Error, ParseError, Problem};
-use crate::mesh_file;
+use crate::mesh_file::{self, Limits};
 
 /// Reads a scene file (JSON, JSON5 or TOML, by its extension), puts its mesh files in the place of their names
 /// and checks every value, so that what comes after needs no files.
@@ -34,7 +34,7 @@ fn read_document(path: &Path) -> Result<Scene, Error> {
     };
     let unknown = || Error::UnsupportedFormat { path: path.to_owned(), supported: ".json, .json5, .toml" };
     let format = Format::of_path(path).ok_or_else(unknown)?;
-    let bytes = mesh_file::read_limited(path)?;
+    let bytes = mesh_file::read_limited(path, limits::FILE_BYTES)?;
     let text = String::from_utf8(bytes).map_err(|_| refusal(1, 1, "it is not UTF-8 text"))?;
     // Some editors begin a text with a byte order mark.
     parse(text.strip_prefix('\u{feff}').unwrap_or(&text), format).map_err(|error| match error {
@@ -57,7 +57,7 @@ fn inline_mesh_files(scene: &mut Scene, folder: &Path) -> Vec<Problem> {
         let Some(file) = place.file() else { continue };
         let read = files
             .entry(file.path.clone())
-            .or_insert_with(|| mesh_file::read_inside(folder, &file.path).map_err(|error| error.to_string()));
+            .or_insert_with(|| read_mesh(folder, &file.path).map_err(|error| error.to_string()));
         match read {
             Ok(mesh) => {
                 vertices += mesh.positions.len() as u64;
@@ -76,6 +76,10 @@ fn inline_mesh_files(scene: &mut Scene, folder: &Path) -> Vec<Problem> {
         }
     }
     problems
+}
+
+fn read_mesh(folder: &Path, path: &str) -> Result<TriMesh, Error> {
+    Ok(mesh_file::read_inside(folder, path, &Limits::default())?.without_unused_vertices())
 }
 
 /// Where a document can name a mesh file.

@@ -109,7 +109,7 @@ fn other_extensions_and_options_are_refused_before_anything_is_written() {
     for name in ["a.avi", "a", "gif"] {
         let problem = write(&recording, &folder.path().join(name)).unwrap_err();
         assert!(matches!(&problem, Error::UnsupportedFormat { .. }), "{problem}");
-        assert!(problem.to_string().contains(".gif, .glb, .mp4"), "{problem}");
+        assert!(problem.to_string().contains(".gif, .glb, .html, .mp4"), "{problem}");
     }
     for (name, options) in [
         ("a.gif", Options { gif_frame_rate: 0.0, ..options() }),

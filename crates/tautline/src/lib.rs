@@ -101,6 +101,7 @@ pub mod constraint;
 mod error;
 mod events;
 pub mod geometry;
+pub mod inspect;
 mod joint;
 mod measure;
 pub mod mesh;

@@ -33,6 +33,10 @@ pub struct BodyView<'a> {
 }
 
 impl<'a> BodyView<'a> {
+    pub(crate) fn body(&self) -> &'a Body {
+        self.body
+    }
+
     /// What it is.
     pub fn kind(&self) -> BodyKind {
         self.body.kind()

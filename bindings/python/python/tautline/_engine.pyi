@@ -992,6 +992,7 @@ class Recording:
 
         Args:
             path: ``.gif``, ``.mp4``, ``.png``: pictures; ``.glb``, ``.usd``, ``.usda``, ``.usdc``: scenes with motion;
+                ``.html``: a page that plays it, in itself;
                 ``.pc2``: a point cache, with its mesh as ``.obj`` beside it; ``.obj``, ``.ply``: a mesh for each frame;
                 ``.npz``: arrays.
             size: Width and height of pictures, in pixels; (640, 480) if absent.
@@ -1018,7 +1019,7 @@ def scenes() -> List[NamedScene]:
     """The named scenes."""
 
 def read_mesh(path: _Path) -> Tuple[_Floats, _Indices]:
-    """The positions (n, 3) in m and triangles (m, 3) of a mesh file: ``.obj`` or ``.stl``."""
+    """The positions (n, 3) in m and triangles (m, 3) of a mesh file: ``.obj``, ``.stl``, ``.ply``, ``.gltf`` or ``.glb``."""
 
 def set_threads(count: int) -> None:
     """How many threads steps of this process are spread over, from the next on. Results do not depend on it."""

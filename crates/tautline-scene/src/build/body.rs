@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::f32::consts::PI;
 
 use tautline::mesh::TriMesh;
-use tautline::{BodyHandle, Error, Quat, Vec3, World};
+use tautline::{AttachmentHandle, BodyHandle, Error, JointHandle, Quat, Vec3, World};
 
 use super::attachment::{anchor, strength};
 use super::cloth::sheet;
@@ -19,15 +19,24 @@ use crate::document::{
     self, Anchor, Attachment, Body, BodyRef, Cloth, Color, HalfSpace, Joint, Motion, Pin, Rigid, Room, Rope,
     RopeEnd, Rotation, SheetPlace, SoftSolid, Surface, Thread,
 };
+use crate::error::Problem;
 use crate::render::palette;
 
 /// Colour of what never moves.
 pub(super) const GREY: [u8; 3] = [176, 180, 188];
 
 /// Why a body was refused, and in which of its fields, such as `.shape`.
-pub(super) struct Refusal {
-    pub(super) field: &'static str,
-    pub(super) error: Error,
+pub(crate) struct Refusal {
+    pub(crate) field: &'static str,
+    pub(crate) error: Error,
+}
+
+impl Refusal {
+    /// As a problem of that body, its path beginning with its kind.
+    pub(crate) fn of(&self, body: &Body) -> Problem {
+        let path = format!("{}{}", body.kind(), self.field);
+        Problem { path, message: self.error.to_string() }
+    }
 }
 
 impl From<Error> for Refusal {
@@ -37,9 +46,11 @@ impl From<Error> for Refusal {
 }
 
 /// A world in the making.
-pub(super) struct Builder {
-    world: World,
-    parts: Vec<Part>,
+#[derive(Debug)]
+pub(crate) struct Builder {
+    pub(crate) world: World,
+    /// Every body that was added, in that order.
+    pub(crate) parts: Vec<Part>,
     solids: Solids,
     /// The bodies by all that the document can call them, with their indices in it; rooms are many.
     bodies: BTreeMap<BodyRef, (usize, BodyHandle)>,
@@ -49,7 +60,7 @@ pub(super) struct Builder {
 }
 
 impl Builder {
-    pub(super) fn new(world: World, has_trusses: bool) -> Self {
+    pub(crate) fn new(world: World, has_trusses: bool) -> Self {
         Self {
             world,
             parts: Vec::new(),
@@ -60,8 +71,8 @@ impl Builder {
         }
     }
 
-    /// Adds the document's body number `index`.
-    pub(super) fn add(&mut self, index: usize, body: &Body) -> Result<(), Refusal> {
+    /// Adds the document's body number `index`, which is called by `number` from now on.
+    pub(crate) fn add(&mut self, index: usize, number: u32, body: &Body) -> Result<(), Refusal> {
         let name = body.name().map_or_else(|| format!("{} {index}", body.kind()), str::to_owned);
         match body {
             Body::Rigid(rigid) => self.add_rigid(name, rigid),
@@ -73,7 +84,7 @@ impl Builder {
         }?;
         if let Some(part) = self.parts.last() {
             let found = (index, part.body);
-            self.bodies.insert(BodyRef::Index(index as u32), found);
+            self.bodies.insert(BodyRef::Index(number), found);
             self.bodies.extend(body.name().map(|name| (BodyRef::Name(name.to_owned()), found)));
         }
         Ok(())
@@ -151,9 +162,10 @@ impl Builder {
     }
 
     fn add_soft_solid(&mut self, name: String, solid: &SoftSolid) -> Result<(), Refusal> {
-        let body = self.world.add(soft_solid(solid)?)?;
+        let (soft, skin) = soft_solid(solid)?;
+        let body = self.world.add(soft)?;
         let color = self.color(solid.color);
-        self.push(name, color, body, Look::Sheet);
+        self.push(name, color, body, skin.map_or(Look::Sheet, Look::Skin));
         Ok(())
     }
 
@@ -179,28 +191,30 @@ impl Builder {
     }
 
     /// Adds a joint between bodies that have been added.
-    pub(super) fn join(&mut self, document: &Joint) -> Result<(), Error> {
+    pub(crate) fn join(&mut self, document: &Joint) -> Result<JointHandle, Error> {
         let (_, body) = self.find("body", &document.body)?;
         let base = document.base.as_ref().map(|base| self.find("base", base)).transpose()?;
         let base = base.map(|(_, base)| base);
         let center = self.world.body(body)?.center_of_mass();
-        self.world.add_joint(joint(document, body, base, center))?;
-        Ok(())
+        self.world.add_joint(joint(document, body, base, center))
     }
 
     /// Adds an attachment between bodies that have been added; `bodies` are those of the document.
-    pub(super) fn attach(&mut self, document: &Attachment, bodies: &[Body]) -> Result<(), Error> {
+    pub(crate) fn attach(
+        &mut self,
+        document: &Attachment,
+        bodies: &[Body],
+    ) -> Result<AttachmentHandle, Error> {
         let anchor_of = |end: &Anchor| {
             let found = end.body.as_ref().map(|body| self.find("body", body)).transpose()?;
             anchor(&self.world, &end.at, found.map(|(index, body)| (body, &bodies[index])))
         };
         let (a, b) = (anchor_of(&document.a)?, anchor_of(&document.b)?);
-        self.world.attach(a, b, strength(document))?;
-        Ok(())
+        self.world.attach(a, b, strength(document))
     }
 
     /// A cue for a body that has been added.
-    pub(super) fn cue(&self, document: &document::Cue) -> Result<Cue, Error> {
+    pub(crate) fn cue(&self, document: &document::Cue) -> Result<Cue, Error> {
         let (_, body) = self.find("body", &document.body)?;
         let document::Cue { at, velocity, angular_velocity, .. } = *document;
         Ok(Cue { at, body, velocity: velocity.into(), angular_velocity: angular_velocity.into() })
@@ -234,10 +248,31 @@ impl Builder {
         self.parts.push(Part { name, color, body, look });
     }
 
-    /// The world and its parts.
-    pub(super) fn finish(mut self) -> (World, Vec<Part>) {
+    /// From now on a body is called by these numbers and no longer by its index in the document.
+    pub(crate) fn renumber(&mut self, number: impl Fn(BodyHandle) -> Option<u32>) {
+        let known = std::mem::take(&mut self.bodies).into_iter();
+        let renamed = known.filter_map(|(name, found)| match name {
+            BodyRef::Name(_) => Some((name, found)),
+            BodyRef::Index(_) => number(found.1).map(|number| (BodyRef::Index(number), found)),
+        });
+        self.bodies = renamed.collect();
+    }
+
+    /// Whether there is a body of this name.
+    pub(crate) fn knows(&self, name: &str) -> bool {
+        self.bodies.contains_key(&BodyRef::Name(name.to_owned()))
+    }
+
+    /// Forgets what a body is called, which has been removed; returns its index in the document.
+    pub(crate) fn forget(&mut self, body: BodyHandle) -> Option<usize> {
+        let known = self.bodies.values().find(|(_, known)| *known == body).map(|(index, _)| *index);
+        self.bodies.retain(|_, (_, known)| *known != body);
+        known
+    }
+
+    /// Draws half-spaces so large that no edge is near a body.
+    pub(crate) fn draw_walls(&mut self) {
         draw_walls(&self.world, &mut self.parts);
-        (self.world, self.parts)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Cues of a document to cues of a built scene.
 
-use tautline::{BodyHandle, Vec3};
+use tautline::{BodyHandle, Vec3, World};
 
 use super::BuiltScene;
 use crate::error::Error;
@@ -19,18 +19,28 @@ pub struct Cue {
 }
 
 impl BuiltScene {
+    /// Frames a second of a recording of it.
+    pub fn frame_rate(&self) -> f32 {
+        1.0 / (self.dt * self.record_every as f32)
+    }
+
     /// Follows the cues of the step that comes next, in the order of the document. Whoever steps the world without a
     /// [`Run`](crate::run::Run) calls it before every step.
     ///
     /// # Errors
     /// [`Error::Engine`] if their bodies have been removed.
     pub fn follow_cues(&mut self) -> Result<(), Error> {
-        let dt = f64::from(self.dt);
-        let next = (self.world.time() / dt).round();
-        for cue in self.cues.iter().filter(|cue| (f64::from(cue.at) / dt).round() == next) {
-            self.world.set_velocity(cue.body, cue.velocity)?;
-            self.world.set_angular_velocity(cue.body, cue.angular_velocity)?;
-        }
-        Ok(())
+        follow(&self.cues, &mut self.world, self.dt)
     }
+}
+
+/// Follows the cues of the step of `dt` seconds that comes next.
+pub(crate) fn follow(cues: &[Cue], world: &mut World, dt: f32) -> Result<(), Error> {
+    let dt = f64::from(dt);
+    let next = (world.time() / dt).round();
+    for cue in cues.iter().filter(|cue| (f64::from(cue.at) / dt).round() == next) {
+        world.set_velocity(cue.body, cue.velocity)?;
+        world.set_angular_velocity(cue.body, cue.angular_velocity)?;
+    }
+    Ok(())
 }

@@ -4,10 +4,10 @@ mod attachment;
 mod body;
 mod by_hand;
 mod cloth;
-mod cue;
+pub(crate) mod cue;
 mod joint;
 mod rigid;
-mod settings;
+pub(crate) mod settings;
 mod shape;
 mod soft;
 mod wall;
@@ -20,9 +20,10 @@ use tautline::{BodyHandle, World};
 use crate::document::{self, Bounds, Scene, limits};
 use crate::error::{Error, Problem};
 use crate::render::Camera;
-use body::Builder;
+pub(crate) use body::Builder;
 
 pub use cue::Cue;
+pub use soft::Skin;
 
 /// A scene ready to run: its world, and what is needed to draw and judge it.
 #[derive(Debug, Clone)]
@@ -69,6 +70,8 @@ pub enum Look {
     Round(Arc<TriMesh>),
     /// A sheet: the triangles are those of the body's view.
     Sheet,
+    /// A surface that is finer than what is simulated, and moves with it.
+    Skin(Arc<Skin>),
     /// A tube along the body's particles, or one for each segment of a net.
     Tube {
         /// Radius, in m.
@@ -86,13 +89,29 @@ impl Scene {
     /// joint or attachment that the engine refuses, such as `bodies[3].rigid.shape: mesh: edge (0, 1) is open: …`. Mesh files must have
     /// been read, which [`load`](crate::load) does.
     pub fn build(&self) -> Result<BuiltScene, Error> {
+        let (builder, cues) = self.start()?;
+        let Builder { world, parts, .. } = builder;
+        Ok(BuiltScene {
+            name: self.name.clone(),
+            world,
+            parts,
+            camera: self.camera.as_ref().map(camera),
+            cues,
+            bounds: self.bounds.clone(),
+            seconds: self.seconds,
+            dt: self.dt,
+            record_every: self.record_every,
+        })
+    }
+
+    /// The world and what is known of it besides, and what happens in it at a time.
+    pub(crate) fn start(&self) -> Result<(Builder, Vec<Cue>), Error> {
         self.check()?;
         let mut builder = Builder::new(World::new(settings::of(&self.settings))?, self.has_trusses());
         let mut problems = Vec::new();
         for (i, body) in self.bodies.iter().enumerate() {
-            if let Err(refusal) = builder.add(i, body) {
-                let path = format!("bodies[{i}].{}{}", body.kind(), refusal.field);
-                problems.push(Problem { path, message: refusal.error.to_string() });
+            if let Err(refusal) = builder.add(i, i as u32, body) {
+                problems.push(refusal.of(body).within(&format!("bodies[{i}].")));
             }
             if problems.len() == limits::PROBLEMS {
                 break;
@@ -114,19 +133,9 @@ impl Scene {
         if !problems.is_empty() {
             return Err(Error::Invalid(problems));
         }
+        builder.draw_walls();
         let cues = self.cues.iter().map(|cue| builder.cue(cue)).collect::<Result<_, _>>()?;
-        let (world, parts) = builder.finish();
-        Ok(BuiltScene {
-            name: self.name.clone(),
-            world,
-            parts,
-            camera: self.camera.as_ref().map(camera),
-            cues,
-            bounds: self.bounds.clone(),
-            seconds: self.seconds,
-            dt: self.dt,
-            record_every: self.record_every,
-        })
+        Ok((builder, cues))
     }
 }
 

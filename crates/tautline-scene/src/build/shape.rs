@@ -7,7 +7,8 @@ use tautline::mesh::{MassProperties, TriMesh, convex_hull, primitives};
 use tautline::{Error, Quat, Truss, Vec3};
 
 use super::body::quaternion;
-use crate::document::{MeshSource, PartOfCompound, Shape, Surface};
+use crate::document::{Body, MeshSource, Motion, PartOfCompound, Rigid, Scene, Shape, Surface};
+use crate::error::Error as SceneError;
 
 /// A shape made ready for bodies.
 #[derive(Debug, Clone)]
@@ -54,6 +55,23 @@ impl Solid {
         let volume = MassProperties::of(&mesh, 1.0)?.volume;
         let make = Make::Truss { truss: Arc::new(truss), origin, volume };
         Ok(Self { make, surface, is_round: is_round(shape) })
+    }
+}
+
+impl Shape {
+    /// The engine's shape, of a shape that is no file, by itself.
+    ///
+    /// # Errors
+    /// [`SceneError::Invalid`] with every value that is wrong; [`SceneError::Engine`] for what makes no shape.
+    pub fn build(&self) -> Result<tautline::Shape, SceneError> {
+        let motion = if self.is_solid() { Motion::Dynamic } else { Motion::Fixed };
+        let body = Body::Rigid(Rigid { shape: self.clone(), motion: Some(motion), ..Rigid::default() });
+        let problems = Scene { bodies: vec![body], ..Scene::default() }.problems();
+        if !problems.is_empty() {
+            let problems = problems.into_iter().map(|problem| problem.without("bodies[0].rigid."));
+            return Err(SceneError::Invalid(problems.collect()));
+        }
+        Ok(shape_of(self)?)
     }
 }
 

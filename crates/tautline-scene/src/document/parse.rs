@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use serde::Deserializer;
-use serde::de::IgnoredAny;
+use serde::de::{DeserializeOwned, IgnoredAny};
+use serde::{Deserialize, Deserializer};
 
 use super::{Scene, limits, nesting};
 use crate::error::{Error, ParseError};
@@ -36,10 +36,7 @@ impl Format {
 /// # Errors
 /// [`Error::Parse`] with the line, the column and the path of the field.
 pub fn parse(text: &str, format: Format) -> Result<Scene, Error> {
-    if text.len() as u64 > limits::FILE_BYTES {
-        let message = format!("{} bytes are more than {}", text.len(), limits::FILE_BYTES);
-        return Err(refusal("", (1, 1), message));
-    }
+    refuse_large(text)?;
     match format {
         Format::Json => parse_json(text),
         Format::Json5 => parse_json5(text),
@@ -47,7 +44,24 @@ pub fn parse(text: &str, format: Format) -> Result<Scene, Error> {
     }
 }
 
-fn parse_json(text: &str) -> Result<Scene, Error> {
+/// Reads a part of a document, such as one body, from JSON. Its values are not judged.
+///
+/// # Errors
+/// As [`parse`].
+pub fn parse_part<Part: DeserializeOwned>(text: &str) -> Result<Part, Error> {
+    refuse_large(text)?;
+    parse_json(text)
+}
+
+fn refuse_large(text: &str) -> Result<(), Error> {
+    if text.len() as u64 > limits::FILE_BYTES {
+        let message = format!("{} bytes are more than {}", text.len(), limits::FILE_BYTES);
+        return Err(refusal("", (1, 1), message));
+    }
+    Ok(())
+}
+
+fn parse_json<Part: DeserializeOwned>(text: &str) -> Result<Part, Error> {
     let mut deserializer = serde_json::Deserializer::from_str(text);
     let place = |error: &serde_json::Error| (error.line(), error.column().max(1));
     let message = |error: &serde_json::Error| {
@@ -91,11 +105,11 @@ fn parse_toml(text: &str) -> Result<Scene, Error> {
 }
 
 /// Reads a document and tells the path of the field that could not be read.
-fn at_path<'de, D: Deserializer<'de>>(
+fn at_path<'de, Part: Deserialize<'de>, D: Deserializer<'de>>(
     deserializer: D,
     place: impl Fn(&D::Error) -> (usize, usize),
     message: impl Fn(&D::Error) -> String,
-) -> Result<Scene, Error> {
+) -> Result<Part, Error> {
     serde_path_to_error::deserialize(deserializer).map_err(|error| {
         let path = error.path().to_string();
         // `.` is the root, `?` a key that could not be read.
@@ -109,7 +123,7 @@ fn refusal(field: &str, (line, column): (usize, usize), message: String) -> Erro
 }
 
 /// Line and column, from 1, of a byte; the column counts characters.
-fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
+pub(super) fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
     let before = text.get(..offset).unwrap_or(text);
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
     let column = before.get(line_start..).unwrap_or_default().chars().count() + 1;

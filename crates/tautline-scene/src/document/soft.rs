@@ -19,6 +19,10 @@ pub struct SoftSolid {
     /// Cells along X, Y and Z of a box; 4 each if absent. For no other shape.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cells: Option<[u32; 3]>,
+    /// At most so many triangles have the surface that is simulated, which moves the shape as it is drawn; `pins` and
+    /// attachments count the vertices of the coarser one. Not for a box, which has `cells`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coarse_triangles: Option<u32>,
     /// Where its frame is, in m.
     pub position: [f32; 3],
     /// How its frame is turned.
@@ -59,6 +63,7 @@ impl Default for SoftSolid {
             name: None,
             shape: Shape::default(),
             cells: None,
+            coarse_triangles: None,
             position: [0.0; 3],
             rotation: Rotation::default(),
             velocity: [0.0; 3],
@@ -80,7 +85,8 @@ impl SoftSolid {
     /// Cells of a box if it does not say how many.
     pub const CELLS: [u32; 3] = [4; 3];
 
-    /// How many particles it has on its surface and, if it is a box, inside; 0 for a file that is not loaded.
+    /// How many particles it has on its surface and, if it is a box, inside; at most so many if it is made coarser. 0 for a
+    /// file that is not loaded.
     pub fn particle_count(&self) -> u64 {
         match self.shape {
             Shape::Box { .. } => {

@@ -3,6 +3,7 @@
 mod atomic;
 mod gif;
 mod glb;
+mod html;
 mod joined;
 mod mp4;
 mod npz;
@@ -20,7 +21,8 @@ use crate::render::{Renderer, Settings};
 
 pub use atomic::{check_writable, write_atomically};
 pub use gif::write_gif;
-pub use glb::write_glb;
+pub use glb::{glb_bytes, write_glb};
+pub use html::{html, write_html};
 pub use mp4::write_mp4;
 pub use npz::write_npz;
 pub use pc2::{mesh_path, write_pc2};
@@ -28,7 +30,7 @@ pub use png::write_png;
 pub use sequence::{frame_path, write_obj, write_ply};
 
 /// The extensions that [`write()`] knows.
-pub const FORMATS: &str = ".gif, .glb, .mp4, .npz, .obj, .pc2, .ply, .png";
+pub const FORMATS: &str = ".gif, .glb, .html, .mp4, .npz, .obj, .pc2, .ply, .png";
 
 /// A format that recordings are written in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,6 +39,8 @@ pub enum Format {
     Gif,
     /// Animated glTF.
     Glb,
+    /// A page that plays it.
+    Html,
     /// A film, by ffmpeg.
     Mp4,
     /// NumPy's arrays.
@@ -61,6 +65,7 @@ impl Format {
         match extension.as_str() {
             "gif" => Ok(Self::Gif),
             "glb" => Ok(Self::Glb),
+            "html" => Ok(Self::Html),
             "mp4" => Ok(Self::Mp4),
             "npz" => Ok(Self::Npz),
             "obj" => Ok(Self::Obj),
@@ -89,13 +94,13 @@ impl Default for Options {
     }
 }
 
-/// Writes a recording in the format that the extension of `path` names: `.glb` (animated glTF), `.gif`, `.mp4` (by the
-/// ffmpeg that is found where programs are), `.png` (one frame), `.pc2` (and its mesh as `.obj`), `.npz`, or one `.obj` or
-/// `.ply` for each frame. `progress` is told (steps done, steps to do).
+/// Writes a recording in the format that the extension of `path` names: `.glb` (animated glTF), `.gif`, `.html` (a
+/// page that plays it), `.mp4` (by the ffmpeg that is found where programs are), `.png` (one frame), `.pc2` (and its mesh as
+/// `.obj`), `.npz`, or one `.obj` or `.ply` for each frame. `progress` is told (steps done, steps to do).
 ///
 /// # Errors
-/// [`Error::UnsupportedFormat`] for another extension; otherwise those of [`write_glb`], [`write_gif`], [`write_mp4`],
-/// [`write_npz`], [`write_pc2`], [`write_obj`], [`Renderer::new`] and [`write_png`].
+/// [`Error::UnsupportedFormat`] for another extension; otherwise those of [`write_glb`], [`write_gif`],
+/// [`write_html`], [`write_mp4`], [`write_npz`], [`write_pc2`], [`write_obj`], [`Renderer::new`] and [`write_png`].
 pub fn write(
     recording: &Recording,
     path: &Path,
@@ -111,6 +116,7 @@ pub fn write(
         Format::Pc2 => return write_pc2(recording, path, progress),
         Format::Ply => return write_ply(recording, path, progress),
         Format::Glb => write_glb(recording, path)?,
+        Format::Html => write_html(recording, options.picture.camera, path)?,
         Format::Npz => write_npz(recording, path)?,
         Format::Png => write_frame(recording, path, options)?,
     }

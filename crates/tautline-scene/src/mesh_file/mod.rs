@@ -1,98 +1,124 @@
-//! Mesh files: OBJ and STL to triangles over shared vertices.
+//! Mesh files: OBJ, STL, PLY and glTF to triangles over shared vertices.
 //!
-//! Read here rather than by a library because a solid needs what a picture does not: one vertex per place
-//! across groups, seams and facets, so that its surface closes; and the line of what is wrong.
+//! Read here rather than by libraries because a solid needs what a picture does not: one vertex per place across
+//! groups, seams and facets, so that its surface closes; the place of what is wrong; and memory in proportion to the
+//! file, whatever its numbers claim.
 
+mod folder;
+mod gltf;
+mod limits;
+mod notes;
 mod obj;
+mod ply;
 mod polygon;
+mod refusal;
 mod stl;
+mod weld;
+mod words;
+mod write;
 
-use std::fs::File;
-use std::io::Read;
-use std::path::{Component, Path, PathBuf};
+use std::path::Path;
 
 use tautline::mesh::TriMesh;
 
-use crate::document::limits;
 use crate::error::Error;
 
-/// What is wrong with a mesh file, and at which line, from 1, if it has lines.
-#[derive(Debug, PartialEq)]
-struct Defect {
-    line: Option<usize>,
-    message: String,
+pub(crate) use folder::read_limited;
+pub use limits::Limits;
+pub use notes::Note;
+pub use refusal::{Place, Refusal};
+pub use write::write_mesh;
+
+/// The extensions that [`Format::of`] knows.
+pub const FORMATS: &str = ".obj, .stl, .ply, .gltf, .glb";
+
+/// A kind of mesh file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// Wavefront OBJ, text.
+    Obj,
+    /// STL, text or binary.
+    Stl,
+    /// PLY, text or binary of either byte order.
+    Ply,
+    /// glTF 2.0 as JSON, or as one binary file.
+    Gltf,
 }
 
-impl Defect {
-    fn new(message: impl Into<String>) -> Self {
-        Self { line: None, message: message.into() }
-    }
-
-    fn at(line: usize, message: impl Into<String>) -> Self {
-        Self { line: Some(line), message: message.into() }
+impl Format {
+    /// The format that the extension of a path names, in small or capital letters; `None` for another extension.
+    pub fn of(path: &Path) -> Option<Self> {
+        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+            "obj" => Some(Self::Obj),
+            "stl" => Some(Self::Stl),
+            "ply" => Some(Self::Ply),
+            "gltf" | "glb" => Some(Self::Gltf),
+            _ => None,
+        }
     }
 }
 
-/// Reads an OBJ or STL file, told apart by its extension. Nothing is known of the surface but that its
-/// coordinates are finite and its indices are those of its vertices.
+/// What a mesh file holds.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct MeshFile {
+    /// Vertices as the file counts them, in its units, and faces divided into triangles. Vertices of STL and glTF,
+    /// which write one for every corner or seam, are one where they are equal to the bit. Nothing is known of the
+    /// surface but that its coordinates are finite, its indices are those of its vertices, and it has a triangle.
+    pub mesh: TriMesh,
+    /// What the file says besides and was passed over.
+    pub notes: Vec<Note>,
+}
+
+impl MeshFile {
+    /// The mesh without the vertices that no triangle uses; the others keep their order.
+    pub fn without_unused_vertices(self) -> TriMesh {
+        weld::without_unused(self.mesh)
+    }
+}
+
+/// Reads a mesh file, whose extension says what it is. A glTF file may name buffers beside it or in folders below; no
+/// other file is opened.
 ///
 /// # Errors
-/// [`Error::Io`], or [`Error::Mesh`] for a file that is malformed, empty, too large or of another kind.
-pub fn read(path: &Path) -> Result<TriMesh, Error> {
-    let bytes = read_limited(path)?;
-    let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-    let mesh = match extension.to_ascii_lowercase().as_str() {
-        "obj" => obj::parse(&String::from_utf8_lossy(&bytes)),
-        "stl" => stl::parse(&bytes),
-        other => Err(Defect::new(format!(
-            "{other:?} is the extension of no mesh file that can be read: obj or stl"
-        ))),
-    };
-    mesh.map_err(|Defect { line, message }| Error::Mesh { path: path.to_owned(), line, message })
+/// [`Error::Io`] for what is no regular file or is larger than the limit; [`Error::UnsupportedFormat`] for another
+/// extension; [`Error::Mesh`] for a file that is malformed, beyond a limit or without a triangle.
+pub fn read_mesh(path: &Path, limits: &Limits) -> Result<MeshFile, Error> {
+    let unknown = || Error::UnsupportedFormat { path: path.to_owned(), supported: FORMATS };
+    let format = Format::of(path).ok_or_else(unknown)?;
+    let bytes = read_limited(path, limits.file_bytes)?;
+    parse_beside(&bytes, format, limits, Some(folder::folder_of(path)))
+        .map_err(|refusal| Error::Mesh { path: path.to_owned(), refusal })
 }
 
 /// Reads the mesh file at a path that a scene gives, which must lie in the scene's folder.
 ///
 /// # Errors
-/// Those of [`read`]; [`Error::Mesh`] for a path that leads out of the folder, by itself or by a link.
-pub fn read_inside(folder: &Path, path: &str) -> Result<TriMesh, Error> {
-    read(&inside(folder, path)?)
+/// Those of [`read_mesh`]; [`Error::Mesh`] for a path that leads out of the folder, by itself or by a link.
+pub fn read_inside(folder: &Path, path: &str, limits: &Limits) -> Result<MeshFile, Error> {
+    read_mesh(&folder::inside(folder, path)?, limits)
 }
 
-/// The file's true path, once it is known to lie in the folder.
-fn inside(folder: &Path, path: &str) -> Result<PathBuf, Error> {
-    let refusal = |message: &str| Error::Mesh { path: path.into(), line: None, message: message.to_owned() };
-    let plain = |component| matches!(component, Component::Normal(_) | Component::CurDir);
-    if path.is_empty() || !Path::new(path).components().all(plain) {
-        return Err(refusal("not a path inside the scene's folder: it must be relative and without `..`"));
-    }
-    let joined = folder.join(path);
-    let file = joined.canonicalize().map_err(|source| Error::io(&joined, source))?;
-    let folder = folder.canonicalize().map_err(|source| Error::io(folder, source))?;
-    if !file.starts_with(&folder) {
-        return Err(refusal("a link that leads out of the scene's folder"));
-    }
-    Ok(file)
+/// Reads the bytes of a mesh file. A glTF file must hold its buffers itself.
+///
+/// # Errors
+/// [`Refusal`] for bytes that are malformed, beyond a limit or without a triangle.
+pub fn parse(bytes: &[u8], format: Format, limits: &Limits) -> Result<MeshFile, Refusal> {
+    parse_beside(bytes, format, limits, None)
 }
 
-/// The bytes of a regular file that is not too large.
-pub(crate) fn read_limited(path: &Path) -> Result<Vec<u8>, Error> {
-    let io = |source| Error::io(path, source);
-    // Asked before it is opened: opening a pipe would wait for its writer.
-    let metadata = std::fs::metadata(path).map_err(io)?;
-    if !metadata.is_file() {
-        return Err(io(std::io::Error::other("not a regular file")));
+fn parse_beside(
+    bytes: &[u8],
+    format: Format,
+    limits: &Limits,
+    folder: Option<&Path>,
+) -> Result<MeshFile, Refusal> {
+    if bytes.len() as u64 > limits.file_bytes {
+        return Err(Refusal::new(limits::too_many("bytes", bytes.len() as u64, limits.file_bytes)));
     }
-    if metadata.len() > limits::FILE_BYTES {
-        let message = format!("{} bytes are more than {}", metadata.len(), limits::FILE_BYTES);
-        return Err(io(std::io::Error::new(std::io::ErrorKind::FileTooLarge, message)));
+    match format {
+        Format::Obj => obj::parse(&String::from_utf8_lossy(bytes), limits),
+        Format::Stl => stl::parse(bytes, limits),
+        Format::Ply => ply::parse(bytes, limits),
+        Format::Gltf => gltf::parse(bytes, limits, folder),
     }
-    let mut bytes = Vec::new();
-    File::open(path).and_then(|file| file.take(limits::FILE_BYTES).read_to_end(&mut bytes)).map_err(io)?;
-    Ok(bytes)
-}
-
-/// A coordinate as text; one that is not finite is none.
-fn coordinate(word: &str) -> Option<f32> {
-    word.parse().ok().filter(|value: &f32| value.is_finite())
 }

@@ -5,31 +5,66 @@ use tautline::Vec3;
 /// Corners of a face that is cut ear by ear, which takes the cube of their number at worst.
 const MOST_CORNERS: usize = 256;
 
-/// Triangles with the polygon's corners and its direction of turning. A convex polygon becomes a fan around
-/// its first corner.
-pub(super) fn triangulate(positions: &[Vec3], corners: &[u32]) -> Result<Vec<[u32; 3]>, String> {
-    if corners.len() < 3 {
-        return Err(format!("a face of {} corners is none: at least 3", corners.len()));
+/// Corners that are looked at, over all faces of a file, before the division is given up: seconds.
+const MOST_WORK: u64 = 1 << 28;
+
+/// Divides the faces of one file.
+pub(super) struct Divider {
+    work_left: u64,
+}
+
+impl Divider {
+    pub(super) fn new() -> Self {
+        Self { work_left: MOST_WORK }
     }
-    let normal = newell_normal(positions, corners);
-    let mut triangles = Vec::with_capacity(corners.len() - 2);
-    let mut rest = corners.to_vec();
-    let is_fan =
-        (1..corners.len() - 1).all(|i| turns(positions, [corners[0], corners[i], corners[i + 1]], normal));
-    if !is_fan && corners.len() > MOST_CORNERS {
-        return Err(format!(
-            "a face of {} corners that is not convex: at most {MOST_CORNERS}",
-            corners.len()
-        ));
+
+    /// Adds triangles with the polygon's corners and its direction of turning. A convex polygon becomes a fan around
+    /// its first corner.
+    pub(super) fn divide(
+        &mut self,
+        positions: &[Vec3],
+        corners: &[u32],
+        triangles: &mut Vec<[u32; 3]>,
+    ) -> Result<(), String> {
+        if corners.len() < 3 {
+            return Err(format!("a face of {} corners is none: at least 3", corners.len()));
+        }
+        let normal = newell_normal(positions, corners);
+        let fan = corners[1..].windows(2).map(|pair| [corners[0], pair[0], pair[1]]);
+        if corners.len() == 3 || fan.clone().all(|triangle| turns(positions, triangle, normal)) {
+            triangles.extend(fan);
+            return Ok(());
+        }
+        if corners.len() > MOST_CORNERS {
+            let count = corners.len();
+            return Err(format!("a face of {count} corners that is not convex: at most {MOST_CORNERS}"));
+        }
+        self.cut_ears(positions, corners, normal, triangles)
     }
-    while rest.len() > 3 {
-        // Without an ear the polygon crosses itself or has no area: the surface says so where it is built.
-        let ear = if is_fan { 1 } else { find_ear(positions, &rest, normal).unwrap_or(1) };
-        triangles.push(around(&rest, ear));
-        rest.remove(ear);
+
+    fn cut_ears(
+        &mut self,
+        positions: &[Vec3],
+        corners: &[u32],
+        normal: Vec3,
+        triangles: &mut Vec<[u32; 3]>,
+    ) -> Result<(), String> {
+        let mut rest = corners.to_vec();
+        while rest.len() > 3 {
+            // Without an ear the polygon crosses itself or has no area: the surface says so where it is built.
+            let ear = find_ear(positions, &rest, normal);
+            let looked_at = ear.map_or(rest.len(), |ear| ear.max(1)) * rest.len();
+            self.work_left = self
+                .work_left
+                .checked_sub(looked_at as u64)
+                .ok_or("faces with many corners that are not convex: divide them into triangles first")?;
+            let ear = ear.unwrap_or(1);
+            triangles.push(around(&rest, ear));
+            rest.remove(ear);
+        }
+        triangles.push([rest[0], rest[1], rest[2]]);
+        Ok(())
     }
-    triangles.push([rest[0], rest[1], rest[2]]);
-    Ok(triangles)
 }
 
 /// Twice the polygon's area along its normal (Newell's method): right for any polygon that is nearly plane.

@@ -1,36 +1,39 @@
 //! STL, text and binary. Its triangles share nothing: corners at the same place become one vertex.
 
-use std::collections::BTreeMap;
-use std::collections::btree_map::Entry;
-
 use tautline::Vec3;
 use tautline::mesh::TriMesh;
 
-use super::{Defect, coordinate};
+use super::words::Words;
+use super::{Limits, MeshFile, Refusal, weld};
 
 /// Bytes before the triangles of a binary file: a comment of 80 and the number of triangles.
 const HEADER: usize = 84;
 /// Bytes of a triangle: normal, three corners, two bytes of attributes.
 const FACET: usize = 50;
 
+/// Least bytes of a facet as text: `facet`, `outer loop`, three times `vertex 0 0 0`, `endloop`, `endfacet`.
+const LEAST_TEXT: usize = 76;
+
 /// Reads the bytes of a file. The normals are passed over: the order of the corners says the same.
-pub(super) fn parse(bytes: &[u8]) -> Result<TriMesh, Defect> {
-    let mut weld = Weld::default();
+pub(super) fn parse(bytes: &[u8], limits: &Limits) -> Result<MeshFile, Refusal> {
     // Some binary files begin with `solid` too, so their length decides.
-    if binary_length(bytes) == Some(bytes.len()) {
-        read_binary(&bytes[HEADER..], &mut weld)?;
+    let corners = if binary_length(bytes) == Some(bytes.len()) {
+        limits.check_triangles((bytes.len() - HEADER) / FACET)?;
+        read_binary(&bytes[HEADER..])?
     } else if bytes.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) {
-        read_text(&String::from_utf8_lossy(bytes), &mut weld)?;
+        read_text(&String::from_utf8_lossy(bytes), limits)?
     } else {
-        return Err(Defect::new(match binary_length(bytes) {
+        return Err(Refusal::new(match binary_length(bytes) {
             Some(length) => format!("it announces {length} bytes of binary STL and has {}", bytes.len()),
             None => "it is neither text that begins with `solid` nor long enough for binary STL".to_owned(),
         }));
+    };
+    if corners.is_empty() {
+        return Err(Refusal::new("it has no triangles"));
     }
-    if weld.mesh.triangles.is_empty() {
-        return Err(Defect::new("it has no triangles"));
-    }
-    Ok(weld.mesh)
+    let triangles = (0..corners.len() as u32 / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    let mesh = weld::weld(TriMesh { positions: corners, triangles });
+    Ok(MeshFile { mesh, notes: Vec::new() })
 }
 
 /// How long a binary file with this header is.
@@ -39,38 +42,42 @@ fn binary_length(bytes: &[u8]) -> Option<usize> {
     (u32::from_le_bytes(*count) as usize).checked_mul(FACET)?.checked_add(HEADER)
 }
 
-fn read_binary(facets: &[u8], weld: &mut Weld) -> Result<(), Defect> {
+fn read_binary(facets: &[u8]) -> Result<Vec<Vec3>, Refusal> {
+    let mut corners = Vec::with_capacity(facets.len() / FACET * 3);
     for (i, facet) in facets.chunks_exact(FACET).enumerate() {
         let mut numbers = [0.0; 12];
         for (number, bytes) in numbers.iter_mut().zip(facet.as_chunks::<4>().0) {
             *number = f32::from_le_bytes(*bytes);
         }
         let [.., x0, y0, z0, x1, y1, z1, x2, y2, z2] = numbers;
-        let corners = [Vec3::new(x0, y0, z0), Vec3::new(x1, y1, z1), Vec3::new(x2, y2, z2)];
-        if !corners.iter().all(|corner| corner.is_finite()) {
-            return Err(Defect::new(format!("triangle {i} has a coordinate that is not finite")));
+        let facet = [Vec3::new(x0, y0, z0), Vec3::new(x1, y1, z1), Vec3::new(x2, y2, z2)];
+        if !facet.iter().all(|corner| corner.is_finite()) {
+            let message = format!("triangle {i} has a coordinate that is not finite");
+            return Err(Refusal::at_byte(HEADER + i * FACET, message));
         }
-        weld.push(corners);
+        corners.extend(facet);
     }
-    Ok(())
+    Ok(corners)
 }
 
 /// Any number of `solid … endsolid`, one after another.
-fn read_text(text: &str, weld: &mut Weld) -> Result<(), Defect> {
-    let mut words = Words::new(text);
+fn read_text(text: &str, limits: &Limits) -> Result<Vec<Vec3>, Refusal> {
+    let mut words = Words::new(text, 1);
+    let mut corners = Vec::with_capacity((text.len() / LEAST_TEXT).min(limits.triangles) * 3);
     while words.peek().is_some() {
         words.expect("solid")?;
         words.skip_line();
         while !words.peek().is_some_and(|word| word.eq_ignore_ascii_case("endsolid")) {
-            weld.push(read_facet(&mut words)?);
+            corners.extend(read_facet(&mut words)?);
+            limits.check_triangles(corners.len() / 3)?;
         }
         words.expect("endsolid")?;
         words.skip_line();
     }
-    Ok(())
+    Ok(corners)
 }
 
-fn read_facet(words: &mut Words) -> Result<[Vec3; 3], Defect> {
+fn read_facet(words: &mut Words) -> Result<[Vec3; 3], Refusal> {
     words.expect("facet")?;
     // A normal may be anything, even NaN.
     words.skip_line();
@@ -79,83 +86,9 @@ fn read_facet(words: &mut Words) -> Result<[Vec3; 3], Defect> {
     let mut corners = [Vec3::ZERO; 3];
     for corner in &mut corners {
         words.expect("vertex")?;
-        *corner = Vec3::new(words.number()?, words.number()?, words.number()?);
+        *corner = Vec3::new(words.coordinate()?, words.coordinate()?, words.coordinate()?);
     }
     words.expect("endloop")?;
     words.expect("endfacet")?;
     Ok(corners)
-}
-
-/// The words of a text, and the line of the next.
-struct Words<'a> {
-    lines: std::iter::Enumerate<std::str::Lines<'a>>,
-    words: std::iter::Peekable<std::str::SplitWhitespace<'a>>,
-    line: usize,
-}
-
-impl<'a> Words<'a> {
-    fn new(text: &'a str) -> Self {
-        Self { lines: text.lines().enumerate(), words: "".split_whitespace().peekable(), line: 0 }
-    }
-
-    fn peek(&mut self) -> Option<&'a str> {
-        while self.words.peek().is_none() {
-            let (i, line) = self.lines.next()?;
-            self.line = i + 1;
-            self.words = line.split_whitespace().peekable();
-        }
-        self.words.peek().copied()
-    }
-
-    fn next(&mut self) -> Option<&'a str> {
-        self.peek()?;
-        self.words.next()
-    }
-
-    fn skip_line(&mut self) {
-        self.words = "".split_whitespace().peekable();
-    }
-
-    fn expect(&mut self, keyword: &str) -> Result<(), Defect> {
-        match self.next() {
-            Some(word) if word.eq_ignore_ascii_case(keyword) => Ok(()),
-            found => Err(self.unexpected(found, &format!("`{keyword}`"))),
-        }
-    }
-
-    fn number(&mut self) -> Result<f32, Defect> {
-        let found = self.next();
-        found.and_then(coordinate).ok_or_else(|| self.unexpected(found, "a coordinate, a finite number"))
-    }
-
-    fn unexpected(&self, found: Option<&str>, expected: &str) -> Defect {
-        match found {
-            Some(word) => Defect::at(self.line, format!("{word:?} is not {expected}")),
-            None => Defect::at(self.line, format!("the file ends where {expected} should be")),
-        }
-    }
-}
-
-/// Triangles whose corners become one vertex where they are equal to the bit, −0 being 0.
-#[derive(Default)]
-struct Weld {
-    mesh: TriMesh,
-    vertices: BTreeMap<[u32; 3], u32>,
-}
-
-impl Weld {
-    fn push(&mut self, corners: [Vec3; 3]) {
-        let triangle = corners.map(|corner| {
-            // −0 + 0 is +0.
-            let corner = corner + Vec3::ZERO;
-            match self.vertices.entry(corner.to_array().map(f32::to_bits)) {
-                Entry::Occupied(vertex) => *vertex.get(),
-                Entry::Vacant(place) => {
-                    self.mesh.positions.push(corner);
-                    *place.insert(self.mesh.positions.len() as u32 - 1)
-                }
-            }
-        });
-        self.mesh.triangles.push(triangle);
-    }
 }

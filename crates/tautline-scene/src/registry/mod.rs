@@ -3,22 +3,28 @@
 
 mod bag;
 mod balance;
+mod balloon;
 mod bridge;
 mod chain;
 mod cloth;
+mod flag;
 mod frame;
 mod garment;
 mod hold;
 mod impact;
 mod jelly;
 mod knot;
+mod mesh_drop;
 mod net;
 mod parameter;
 mod ragdoll;
 mod rigid;
 mod rope;
+mod scan;
+mod sculpture;
 mod stacks;
 mod table;
+mod tear;
 mod together;
 mod trampoline;
 mod window;
@@ -86,6 +92,11 @@ pub fn scenes() -> &'static [NamedScene] {
         trampoline::TRAMPOLINE,
         knot::KNOT,
         garment::GARMENTS,
+        flag::FLAG,
+        balloon::BALLOON,
+        tear::TEAR,
+        mesh_drop::MESH_DROP,
+        scan::SCAN_DRAPE,
     ]
 }
 

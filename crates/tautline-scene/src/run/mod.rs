@@ -85,7 +85,7 @@ impl Run {
         let step_count = (steps as u64).max(1);
         let frames = step_count / u64::from(scene.record_every) + 1;
         let recorder = if options.record {
-            let mut recorder = Recorder::new(&scene)?;
+            let mut recorder = Recorder::new(&scene.name, scene.frame_rate(), &scene.parts, &scene.world)?;
             let positions = frames.saturating_mul(recorder.positions_per_frame());
             if positions > limits::RECORDED_POSITIONS {
                 let most = limits::RECORDED_POSITIONS;

@@ -217,8 +217,7 @@ fn string() -> Case {
         name: "a vibrating string",
         formula: "f_k = (1/π) √(T/(m a)) sin(kπ/2N)",
         note: "1 m, 1 kg, 4 N, 1 mm/k high. Elastic between two pins; or of fixed length, drawn at both ends, which are free \
-               and weigh m/2; or held at one: half of a string of 2N links, by symmetry. Where one \
-               end is pinned, tethers to it take the tension before the links are solved, and so out of the string.",
+               and weigh m/2; or held at one: half of a string of 2N links, by symmetry.",
         trials: variants.map(trial).into(),
     }
 }

@@ -74,9 +74,29 @@ pub struct Distance {
 /// [`Error::Invalid`] if a set is empty and [`Error::OutOfRange`] if a coordinate is not finite; the field is
 /// `a`, `b`, or the point, such as `a[3]`.
 pub fn distance(a: &[Vec3], b: &[Vec3]) -> Result<Distance, Error> {
-    check("a", a)?;
-    check("b", b)?;
-    if is_in_order(a, b) { Ok(ordered_distance(a, b)) } else { Ok(ordered_distance(b, a).mirrored()) }
+    let (a, b) = (Set::new("a", a)?, Set::new("b", b)?);
+    if is_in_order(a.points, b.points) {
+        Ok(ordered_distance(&a, &b))
+    } else {
+        Ok(ordered_distance(&b, &a).mirrored())
+    }
+}
+
+/// Points that have been checked, and a point amid them.
+struct Set<'a> {
+    points: &'a [Vec3],
+    middle: Vec3,
+}
+
+impl<'a> Set<'a> {
+    fn new(field: &str, points: &'a [Vec3]) -> Result<Self, Error> {
+        let middle = points.iter().sum::<Vec3>() / points.len() as f32;
+        // Of finite points the sum may be too large, of others it is never finite.
+        if !middle.is_finite() {
+            check(field, points)?;
+        }
+        Ok(Self { points, middle })
+    }
 }
 
 fn check(field: &str, points: &[Vec3]) -> Result<(), Error> {
@@ -108,9 +128,9 @@ fn is_in_order(a: &[Vec3], b: &[Vec3]) -> bool {
     }
 }
 
-fn ordered_distance(a: &[Vec3], b: &[Vec3]) -> Distance {
-    let mut axis = b[0] - a[0];
-    let (a, b) = (Points(a), Points(b));
+fn ordered_distance(a: &Set, b: &Set) -> Distance {
+    let mut axis = b.middle - a.middle;
+    let (a, b) = (Points(a.points), Points(b.points));
     let gjk = gjk::closest(&a, &b, &mut axis);
     if gjk.proximity == Proximity::Intersecting {
         let face = Epa::default().hit_face(&a, &b, &gjk.simplex, axis, MAX_ITERATIONS - gjk.iterations);

@@ -63,6 +63,35 @@ pub fn closest(a: &impl Support, b: &impl Support, axis: &mut Vec3) -> Gjk {
     walk.finish(axis)
 }
 
+/// What an iteration did, to be looked at.
+#[derive(Debug, Clone, Copy)]
+pub struct Iteration {
+    /// Where the support point was sought, from A to B.
+    pub direction: DVec3,
+    /// What was found there.
+    pub vertex: CsoVertex,
+    /// The simplex after it was taken in and reduced.
+    pub simplex: Simplex,
+    /// The point of the simplex that is closest to the origin.
+    pub closest: DVec3,
+}
+
+/// As [`closest()`], telling `visit` every iteration.
+pub fn trace(a: &impl Support, b: &impl Support, axis: &mut Vec3, visit: &mut dyn FnMut(Iteration)) -> Gjk {
+    let mut walk = Walk::new(*axis);
+    let mut goes_on = true;
+    while goes_on && walk.iterations < MAX_ITERATIONS {
+        let direction = walk.direction;
+        let vertex = CsoVertex::support(a, b, direction);
+        goes_on = walk.iterate(vertex, false);
+        // Four vertices are left only where they hold the origin.
+        let holds_origin = walk.simplex.vertices().len() == 4;
+        let closest = if holds_origin { DVec3::ZERO } else { walk.simplex.closest_point() };
+        visit(Iteration { direction, vertex, simplex: walk.simplex, closest });
+    }
+    walk.finish(axis)
+}
+
 struct Walk {
     simplex: Simplex,
     /// Where the next support point is sought, from A to B: minus v, the closest point so far.
@@ -94,22 +123,28 @@ impl Walk {
 
     fn run(&mut self, a: &impl Support, b: &impl Support, only_whether: bool) {
         while self.iterations < MAX_ITERATIONS {
-            self.iterations += 1;
             let vertex = CsoVertex::support(a, b, self.direction);
-            let height = self.direction.dot(vertex.point);
-            if height < 0.0 {
-                // All of A ⊖ B lies below the plane through the origin: the direction separates.
-                self.proximity = Proximity::Separated;
-                if only_whether {
-                    return;
-                }
-            }
-            self.gap = self.distance_squared + height;
-            self.reach_squared = self.reach_squared.max(vertex.point.length_squared());
-            if self.is_closest(&vertex) || !self.advance(vertex) {
+            if !self.iterate(vertex, only_whether) {
                 return;
             }
         }
+    }
+
+    /// Looks at the support point along the direction; false when the walk is over.
+    #[inline(always)]
+    fn iterate(&mut self, vertex: CsoVertex, only_whether: bool) -> bool {
+        self.iterations += 1;
+        let height = self.direction.dot(vertex.point);
+        if height < 0.0 {
+            // All of A ⊖ B lies below the plane through the origin: the direction separates.
+            self.proximity = Proximity::Separated;
+            if only_whether {
+                return false;
+            }
+        }
+        self.gap = self.distance_squared + height;
+        self.reach_squared = self.reach_squared.max(vertex.point.length_squared());
+        !self.is_closest(&vertex) && self.advance(vertex)
     }
 
     /// A vertex that comes back promises no progress, whatever rounding says.
@@ -156,5 +191,32 @@ impl Walk {
             *axis = (self.direction / self.direction.length()).as_vec3();
         }
         Gjk { proximity, simplex: self.simplex, iterations: self.iterations, converged }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::support::Points;
+
+    #[test]
+    fn a_trace_ends_where_the_query_does_and_comes_nearer_all_the_way() {
+        let corners = |center: Vec3| -> Vec<Vec3> {
+            (0..8).map(|i| center + Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2) as f32)).collect()
+        };
+        for offset in [Vec3::new(3.0, 0.4, 0.2), Vec3::new(0.5, 0.4, 0.2), Vec3::new(1.5, 1.3, 1.1)] {
+            let (a, b) = (corners(Vec3::ZERO), corners(offset));
+            let (mut distances, mut axes) = (Vec::new(), [Vec3::ZERO; 2]);
+            let found = closest(&Points(&a), &Points(&b), &mut axes[0]);
+            let traced = trace(&Points(&a), &Points(&b), &mut axes[1], &mut |iteration| {
+                distances.push(iteration.closest.length());
+            });
+            assert_eq!((traced.iterations, traced.proximity), (found.iterations, found.proximity));
+            assert_eq!((distances.len() as u32, axes[0]), (found.iterations, axes[1]));
+            assert!(distances.is_sorted_by(|before, after| before >= after), "{distances:?}");
+            if found.proximity == Proximity::Separated {
+                assert_eq!(distances.last().copied(), Some(found.simplex.closest_point().length()));
+            }
+        }
     }
 }

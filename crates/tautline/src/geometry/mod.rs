@@ -12,5 +12,6 @@ pub mod simplex;
 mod sphere;
 pub mod sphere_tree;
 pub mod support;
+pub mod swept;
 
 pub use sphere::{EnclosingSphere, Sphere, SupportPoints, circumsphere, smallest_enclosing_sphere};

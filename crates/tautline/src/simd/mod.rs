@@ -7,6 +7,7 @@
 #[cfg(target_arch = "x86_64")]
 mod avx2;
 mod portable;
+#[cfg(not(target_arch = "wasm32"))]
 mod scalar;
 mod vector;
 
@@ -36,7 +37,7 @@ pub enum Instructions {
     Widest,
     /// Those that every processor of its kind has: SSE2, NEON or WASM's SIMD128.
     Baseline,
-    /// One number at a time.
+    /// One number at a time; in WebAssembly as `Baseline`.
     Scalar,
 }
 
@@ -127,7 +128,11 @@ pub(crate) fn run<K: Kernel>(instructions: Instructions, kernel: K) -> K::Output
         #[cfg(target_arch = "x86_64")]
         Instructions::Widest if avx2::is_available() => avx2::run(kernel),
         Instructions::Widest | Instructions::Baseline => run_with::<portable::Portable, K>(kernel),
+        #[cfg(not(target_arch = "wasm32"))]
         Instructions::Scalar => run_with::<scalar::Scalar, K>(kernel),
+        // What is downloaded has each kernel once.
+        #[cfg(target_arch = "wasm32")]
+        Instructions::Scalar => run_with::<portable::Portable, K>(kernel),
     }
 }
 

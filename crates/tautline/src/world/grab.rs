@@ -169,6 +169,11 @@ impl World {
         Ok(())
     }
 
+    /// What is held, and by which grab, in the order in which it was taken hold of.
+    pub fn grabs(&self) -> impl ExactSizeIterator<Item = (GrabHandle, BodyHandle)> + '_ {
+        self.grabs.held.iter().map(|grab| (grab.handle, grab.body))
+    }
+
     /// Both ends of the soft stick, in m: where the body is held, and where it is drawn to. To draw it.
     ///
     /// # Errors

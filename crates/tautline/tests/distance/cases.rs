@@ -37,7 +37,7 @@ impl Random {
 }
 
 /// Name and generator of each case.
-pub(crate) const CASES: [Case; 23] = [
+pub(crate) const CASES: [Case; 30] = [
     ("random hulls", |r| (hull(r, 1.0), moved(hull(r, 1.0), r.point(1.6)))),
     ("random hulls of 20", |r| (cloud(r, 20, 1.0), moved(cloud(r, 20, 1.0), r.point(1.5)))),
     ("boxes", |r| (turned(block(r), r.rotation()), moved(turned(block(r), r.rotation()), r.point(1.2)))),
@@ -45,9 +45,15 @@ pub(crate) const CASES: [Case; 23] = [
     ("icosahedra", |r| {
         (turned(icosahedron(), r.rotation()), moved(turned(icosahedron(), r.rotation()), r.point(1.2)))
     }),
-    ("touching", |r| shifted_to(r, 0.0)),
-    ("kissing, gap 1e-6", |r| shifted_to(r, 1e-6)),
-    ("kissing, depth 1e-6", |r| shifted_to(r, -1e-6)),
+    ("touching", |r| kissing(r, 1.0, 0.0)),
+    ("1 m, gap 1e-6", |r| kissing(r, 1.0, 1e-6)),
+    ("1 m, depth 1e-6", |r| kissing(r, 1.0, -1e-6)),
+    ("0.25 m, gap 1e-6", |r| kissing(r, 0.125, 1e-6)),
+    ("0.25 m, depth 1e-6", |r| kissing(r, 0.125, -1e-6)),
+    ("1 km, gap 1e-3", |r| kissing(r, 500.0, 1e-3)),
+    ("1 km, depth 1e-3", |r| kissing(r, 500.0, -1e-3)),
+    ("face on face", face_on_face),
+    ("deep", |r| (solid(r), moved(solid(r), r.point(0.05)))),
     ("coincident", |r| {
         let a = solid(r);
         (a.clone(), a)
@@ -69,6 +75,11 @@ pub(crate) const CASES: [Case; 23] = [
     ("segment and solid", |r| (cloud(r, 2, 1.0), moved(solid(r), r.point(1.0)))),
     ("point and solid", |r| (cloud(r, 1, 1.0), moved(solid(r), r.point(1.0)))),
     ("triangles", |r| (cloud(r, 3, 1.0), moved(cloud(r, 3, 1.0), r.point(0.5)))),
+    ("triangles, touching", |r| {
+        let (a, b) = (cloud(r, 3, 1.0), cloud(r, 3, 1.0));
+        shifted_to(a, b, 0.0)
+    }),
+    ("slivers", |r| (sliver(r), moved(sliver(r), r.point(0.3)))),
     ("coplanar triangles", |r| (flattened(cloud(r, 3, 1.0)), flattened(cloud(r, 3, 1.0)))),
     ("collinear", |r| (line(r), moved(line(r), r.point(0.5)))),
     ("duplicates", |r| (doubled(r), doubled(r))),
@@ -76,13 +87,7 @@ pub(crate) const CASES: [Case; 23] = [
         let (a, at) = (scaled(solid(r), 100.0), r.point(100.0));
         (a, moved(scaled(solid(r), 0.1), at))
     }),
-    ("1 km away", |r| {
-        let (a, b) = (solid(r), moved(solid(r), r.point(1.3)));
-        (moved(a, FAR), moved(b, FAR))
-    }),
 ];
-
-const FAR: Vec3 = Vec3::new(700.0, -500.0, 600.0);
 
 pub(crate) fn icosahedron() -> Vec<Vec3> {
     let (s, l) = (0.525_731_1, 0.850_650_8);
@@ -140,14 +145,34 @@ pub(crate) fn solid(r: &mut Random) -> Vec<Vec3> {
     }
 }
 
+/// Two solids of this radius, `gap` apart.
+fn kissing(r: &mut Random, radius: f32, gap: f32) -> Pair {
+    let (a, b) = (solid(r), moved(solid(r), r.point(1.5)));
+    shifted_to(scaled(a, radius), scaled(b, radius), gap)
+}
+
 /// A pair moved together or apart until its signed distance is `gap`, within the rounding of its coordinates.
-fn shifted_to(r: &mut Random, gap: f32) -> Pair {
-    let (a, mut b) = (solid(r), moved(solid(r), r.point(1.5)));
+fn shifted_to(a: Vec<Vec3>, mut b: Vec<Vec3>, gap: f32) -> Pair {
     for _ in 0..2 {
         let found = distance(&a, &b).unwrap();
         b = moved(b, found.normal * (gap - found.distance));
     }
     (a, b)
+}
+
+/// Boxes turned alike, one on the other, from a millionth of a metre above to as much below its face.
+fn face_on_face(r: &mut Random) -> Pair {
+    let (lower, upper) = (block(r), block(r));
+    let top = |points: &[Vec3]| points.iter().map(|p| p.y).fold(0.0, f32::max);
+    let above = Vec3::new(r.between(-0.5, 0.5), top(&lower) + top(&upper) + r.between(-1e-6, 1e-6), 0.1);
+    let turn = if r.index(2) == 0 { Quat::IDENTITY } else { r.rotation() };
+    (turned(lower, turn), turned(moved(upper, above), turn))
+}
+
+/// A triangle whose third corner is next to the line through the others.
+fn sliver(r: &mut Random) -> Vec<Vec3> {
+    let (p, q) = (r.point(1.0), r.point(1.0));
+    vec![p, q, p.lerp(q, r.between(0.0, 1.0)) + r.point(1e-6)]
 }
 
 fn plate(r: &mut Random) -> Vec<Vec3> {

@@ -7,6 +7,8 @@ use crate::document::{Shape, SoftSolid};
 
 /// Most cells along an axis.
 const MOST_CELLS: u32 = 256;
+/// Of a tetrahedron.
+const LEAST_TRIANGLES: u32 = 4;
 
 pub(super) fn check_soft_solid(c: &mut Checker, solid: &SoftSolid, has_trusses: bool) {
     c.require(!has_trusses, "shape", || NOT_OF_TRUSSES.to_owned());
@@ -18,6 +20,11 @@ pub(super) fn check_soft_solid(c: &mut Checker, solid: &SoftSolid, has_trusses: 
         for (k, count) in cells.into_iter().enumerate() {
             c.count(format_args!("cells[{k}]"), count, 1, MOST_CELLS);
         }
+    }
+    if let Some(count) = solid.coarse_triangles {
+        let is_box = matches!(solid.shape, Shape::Box { .. });
+        c.require(!is_box, "coarse_triangles", || "a box is divided in cells".to_owned());
+        c.count("coarse_triangles", count, LEAST_TRIANGLES, u32::MAX);
     }
     c.vector("position", &solid.position, COORDINATE);
     check_rotation(c, &solid.rotation);

@@ -27,9 +27,17 @@ use buffer::{Buffer, Use};
 /// [`Error::Io`] if the file cannot be written, [`Error::Recording`] if the recording contradicts itself,
 /// [`Error::Unsupported`] if the file would exceed the 4 GiB that the format can count.
 pub fn write_glb(recording: &Recording, path: &Path) -> Result<(), Error> {
-    recording.check()?;
-    let bytes = Document::new(recording).into_glb()?;
+    let bytes = glb_bytes(recording)?;
     write_atomically(path, |out| out.write_all(&bytes).map_err(|e| io_error(path, e)))
+}
+
+/// What [`write_glb`] writes.
+///
+/// # Errors
+/// As [`write_glb`], but for files.
+pub fn glb_bytes(recording: &Recording) -> Result<Vec<u8>, Error> {
+    recording.check()?;
+    Document::new(recording).into_glb()
 }
 
 /// The parts of a glTF document, in the making.

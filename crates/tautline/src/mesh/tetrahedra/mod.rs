@@ -15,7 +15,7 @@ mod conforming;
 mod delaunay;
 mod filling;
 mod lattice;
-mod predicates;
+pub(super) mod predicates;
 mod quality;
 mod search;
 mod steiner;

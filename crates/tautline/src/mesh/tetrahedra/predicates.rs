@@ -9,7 +9,7 @@ use robust::{Coord, Coord3D};
 /// Four corners; positive where the fourth lies on the side the first three turn counter-clockwise to.
 pub(super) type Tet = [u32; 4];
 /// Three corners, counter-clockwise seen from outside of what the face bounds.
-pub(super) type Face = [u32; 3];
+pub(in crate::mesh) type Face = [u32; 3];
 
 /// Outward faces of a positive tetrahedron; face i is opposite corner i.
 const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
@@ -48,7 +48,7 @@ pub(super) fn reversed([a, b, c]: Face) -> Face {
 
 /// Six times the signed volume of (a, b, c, d), exact in sign: positive where a, b, c run
 /// counter-clockwise seen from d's side.
-pub(super) fn orient(points: &[DVec3], [a, b, c]: Face, d: u32) -> f64 {
+pub(in crate::mesh) fn orient(points: &[DVec3], [a, b, c]: Face, d: u32) -> f64 {
     let at = |i: u32| {
         let p = points[i as usize];
         Coord3D { x: p.x, y: p.y, z: p.z }
@@ -161,7 +161,7 @@ fn coplanar_edge_meets_face(points: &[DVec3], [p, q]: [u32; 2], face: Face) -> b
 }
 
 /// Whether two triangles share more than a common corner or a common edge.
-pub(super) fn faces_cross(points: &[DVec3], f: Face, g: Face) -> bool {
+pub(in crate::mesh) fn faces_cross(points: &[DVec3], f: Face, g: Face) -> bool {
     let crosses = |f: Face, g: Face| (0..3).any(|k| edge_crosses_face(points, [f[k], f[(k + 1) % 3]], g));
     crosses(f, g) || crosses(g, f)
 }

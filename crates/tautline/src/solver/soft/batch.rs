@@ -12,22 +12,30 @@ struct Batch {
     count: usize,
 }
 
-/// Numbers of groups of places, in batches of at most eight groups of which no two have a place in common. Each goes to the
-/// first colour in which none has a place of it (greedy colouring).
-pub(super) fn without_sharing<const N: usize>(groups: &[[u32; N]]) -> Vec<Vec<usize>> {
-    let mut colours: Vec<Vec<usize>> = Vec::new();
+/// The colour of each group of places: the first one in which no group has a place of it (greedy colouring). What finds
+/// none among the first 63 has the last, which they do not share.
+pub(crate) fn colors<const N: usize>(groups: &[[u32; N]]) -> Vec<u32> {
     let places = groups.iter().flatten().max().map_or(0, |&most| most as usize + 1);
     let mut taken: Vec<u64> = vec![0; places];
-    for (number, group) in groups.iter().enumerate() {
+    let color_of = |group: &[u32; N]| {
         let used = group.iter().fold(0, |used, &place| used | taken[place as usize]);
-        // What has no colour left goes alone.
-        let colour = used.trailing_ones().min(63) as usize;
-        if colour >= colours.len() {
-            colours.resize(colour + 1, Vec::new());
+        let color = used.trailing_ones().min(63);
+        group.iter().for_each(|&place| taken[place as usize] |= 1 << color);
+        color
+    };
+    groups.iter().map(color_of).collect()
+}
+
+/// Numbers of groups of places, in batches of at most eight groups of which no two have a place in common.
+pub(super) fn without_sharing<const N: usize>(groups: &[[u32; N]]) -> Vec<Vec<usize>> {
+    let mut colours: Vec<Vec<usize>> = Vec::new();
+    for (number, colour) in colors(groups).into_iter().enumerate() {
+        if colour as usize >= colours.len() {
+            colours.resize(colour as usize + 1, Vec::new());
         }
-        colours[colour].push(number);
-        group.iter().for_each(|&place| taken[place as usize] |= 1 << colour);
+        colours[colour as usize].push(number);
     }
+    // What has no colour left goes alone.
     let size = |colour| if colour == 63 { 1 } else { LANES };
     let batches = colours.iter().enumerate();
     batches.flat_map(|(colour, members)| members.chunks(size(colour)).map(<[usize]>::to_vec)).collect()

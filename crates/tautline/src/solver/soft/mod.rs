@@ -55,6 +55,7 @@ use stick::Span;
 use strand::{Segment, Strands};
 use touch::Touch;
 
+pub(crate) use batch::colors;
 pub(crate) use rest::sleepers_near_movers;
 
 /// Small steps in a second: so many, and so many more for every particle along the longer side of a cloth, within bounds.

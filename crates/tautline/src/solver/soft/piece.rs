@@ -172,8 +172,8 @@ impl Piece {
             return;
         }
         self.held = held;
-        if let Layout::Solid(_) = self.layout {
-            // It may stretch.
+        if let Layout::Solid(_) | Layout::Rope = self.layout {
+            // The one may stretch, the other is solved from end to end.
             return;
         }
         let count = body.particles.len();

@@ -12,6 +12,13 @@ pub(super) struct Rope {
     pub(super) spans: Vec<Span>,
 }
 
+/// A rope whose heaviest knot weighs more than so many times the mean is solved once more for each of these: the threads'
+/// regularisation lets it give by what it carries.
+const SOLVED_AGAIN: [f32; 3] = [100.0, 250.0, 500.0];
+const MOST_SOLVES: u32 = 1 + SOLVED_AGAIN.len() as u32;
+/// By what share all sticks of a rope must be near their lengths for that.
+const NEAR: f32 = 0.05;
+
 /// Ropes side by side.
 #[derive(Debug, Clone)]
 pub(super) struct Bundle {
@@ -52,11 +59,27 @@ impl Bundle {
         Self { ropes, knots, spans, stiff, mean_inverse_mass, position, displacement, masses: zeros() }
     }
 
-    /// Solves all sticks of each rope together, and sweeps once over them.
+    /// Solves all sticks of each rope together and sweeps once over them; again for ropes that carry much.
     #[inline(always)]
     pub(super) fn solve<L: Lanes>(&mut self, points: &mut Points, pivots: &mut Vec<Pivot<L>>) {
         self.read(points);
-        let Self { knots, spans, stiff, position, displacement, masses, .. } = self;
+        self.pull(pivots);
+        let solves = self.solves(points);
+        for done in 1..MOST_SOLVES {
+            for lane in (0..self.ropes.len()).filter(|&lane| solves[lane] == done) {
+                self.hold(lane);
+            }
+            if solves.iter().all(|&most| most <= done) {
+                break;
+            }
+            self.pull(pivots);
+        }
+        self.write(points);
+    }
+
+    #[inline(always)]
+    fn pull<L: Lanes>(&mut self, pivots: &mut Vec<Pivot<L>>) {
+        let Self { knots, spans, stiff, mean_inverse_mass, position, displacement, masses, .. } = self;
         let mut moving = Moving { position, displacement };
         let threads = Threads {
             start: 0,
@@ -64,14 +87,47 @@ impl Bundle {
             knots: *knots,
             count: LANES,
             spans: &spans[..],
-            regularisation: REGULARISATION * self.mean_inverse_mass,
+            regularisation: REGULARISATION * *mean_inverse_mass,
         };
         threads.solve(&mut moving, masses, pivots);
         for stick in 0..*knots - 1 {
             let of_stick: Spans<L> = (&stiff[..]).span(stick);
             relax_spans(&mut moving, masses, [stick * LANES, (stick + 1) * LANES], of_stick);
         }
-        self.write(points);
+    }
+
+    /// How often each rope is to be solved. It follows from its masses alone, so that what hangs still is pulled alike from
+    /// small step to small step.
+    fn solves(&self, points: &Points) -> [u32; LANES] {
+        let mut solves = [1; LANES];
+        for (lane, (rope, solves)) in self.ropes.iter().zip(&mut solves).enumerate() {
+            let masses = &points.inverse_mass[rope.start..=rope.start + rope.spans.len()];
+            let heaviest = masses.iter().copied().filter(|&w| w > 0.0).fold(f32::MAX, f32::min);
+            let load = self.mean_inverse_mass / heaviest;
+            *solves += SOLVED_AGAIN.iter().filter(|&&from| load > from).count() as u32;
+            if *solves > 1 && !self.is_taut(lane) {
+                *solves = 1;
+            }
+        }
+        solves
+    }
+
+    /// Whether all sticks of a rope are near their lengths, and none gives. One that is pushed together gets no better by
+    /// being solved again, and what gives has had its force.
+    fn is_taut(&self, lane: usize) -> bool {
+        let at = |knot: usize| get(&self.position, knot * LANES + lane);
+        let is_near = |stick: usize| {
+            let [low, high, compliance] = &self.spans[stick];
+            let length = at(stick).distance(at(stick + 1));
+            let is_in = length > low.0[lane] * (1.0 - NEAR) && length < high.0[lane] * (1.0 + NEAR);
+            is_in && compliance.0[lane] == 0.0
+        };
+        (0..self.ropes[lane].spans.len()).all(is_near)
+    }
+
+    /// Leaves a rope as it is for what is still to be solved.
+    fn hold(&mut self, lane: usize) {
+        (0..self.knots).for_each(|knot| self.masses[knot * LANES + lane] = 0.0);
     }
 
     /// Scales the lengths of the rope that starts at a place, if it is one of these, to so many times what they were laid

@@ -137,6 +137,11 @@ impl Groups {
         groups
     }
 
+    /// All batches, in the order in which they are solved.
+    pub(super) fn batches(&self) -> impl Iterator<Item = &Batch> {
+        self.groups.iter().flat_map(|group| &group.batches)
+    }
+
     pub(super) fn iter_mut(&mut self) -> impl Iterator<Item = &mut Group> {
         self.groups.iter_mut()
     }

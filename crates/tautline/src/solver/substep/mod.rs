@@ -21,6 +21,7 @@ mod island;
 mod joint;
 mod lineup;
 mod listen;
+mod look;
 mod meet;
 mod outside;
 mod pairs;

@@ -1,11 +1,17 @@
-//! Mesh files: what two other readers read, every truncation, and refusals that name the line.
+//! Mesh files: what other programs write and read, every truncation, and refusals that name the place.
+
+mod gltf;
+mod hostile;
+mod ply;
+mod seeds;
 
 use std::path::Path;
 
 use proptest::prelude::*;
 use tautline::Vec3;
 use tautline::mesh::TriMesh;
-use tautline_scene::{Error, mesh_file};
+use tautline_scene::Error;
+use tautline_scene::mesh_file::{self, Format, Limits, MeshFile, Place, Refusal};
 use tempfile::TempDir;
 
 const CUBE: &str = "# a cube of squares, in two groups\r\nmtllib none.mtl\r\no cube\r\n\
@@ -13,17 +19,18 @@ const CUBE: &str = "# a cube of squares, in two groups\r\nmtllib none.mtl\r\no c
     vn 0 0 1\r\nvt 0 0\r\ng sides\r\nf 4 3 2 1\r\nf 5/1/1 6/1/1 7/1/1 8/1/1\r\nf 1//1 2//1 6//1 5//1\r\n\
     g others\r\nf 2/1 3/1 7/1 6/1 # seen from +X\r\nf 3 4 8 7\r\nf -9 -5 -2 -6\r\n";
 
-fn read(name: &str, bytes: impl AsRef<[u8]>) -> Result<TriMesh, Error> {
-    let folder = TempDir::new().unwrap();
-    std::fs::write(folder.path().join(name), bytes).unwrap();
-    mesh_file::read_inside(folder.path(), name)
+fn parse(name: &str, bytes: impl AsRef<[u8]>) -> Result<MeshFile, Refusal> {
+    mesh_file::parse(bytes.as_ref(), Format::of(Path::new(name)).unwrap(), &Limits::default())
 }
 
-fn refusal(name: &str, bytes: impl AsRef<[u8]>) -> (Option<usize>, String) {
-    match read(name, bytes) {
-        Err(Error::Mesh { line, message, .. }) => (line, message),
-        other => panic!("{other:?}"),
-    }
+fn read(name: &str, bytes: impl AsRef<[u8]>) -> TriMesh {
+    parse(name, bytes).unwrap().mesh
+}
+
+/// The place and the message of a refusal.
+fn refusal(name: &str, bytes: impl AsRef<[u8]>) -> (Option<Place>, String) {
+    let refusal = parse(name, bytes).unwrap_err();
+    (refusal.place, refusal.message)
 }
 
 /// The corners of the triangles, whatever the order of the vertices.
@@ -72,7 +79,13 @@ fn binary_stl(mesh: &TriMesh) -> Vec<u8> {
 #[test]
 fn an_obj_of_groups_and_polygons_is_one_closed_surface() {
     for text in [CUBE.to_owned(), CUBE.replace('\r', "")] {
-        let mesh = read("cube.OBJ", text).unwrap();
+        let file = parse("cube.OBJ", text).unwrap();
+        assert_eq!(
+            file.notes.iter().map(ToString::to_string).collect::<Vec<_>>(),
+            ["1 lines about materials"]
+        );
+        assert_eq!(file.mesh.positions.len(), 9, "as the file counts them");
+        let mesh = file.without_unused_vertices();
         assert_eq!((mesh.positions.len(), mesh.triangles.len()), (8, 12));
         assert_closed(&mesh);
         assert_eq!(volume(&mesh, Vec3::ZERO), 1.0);
@@ -99,12 +112,12 @@ fn an_obj_has_the_triangles_that_another_reader_finds() {
                 .map(move |triangle| triangle.each_ref().map(position))
         })
         .collect();
-    assert_eq!(corners(&read("cube.obj", CUBE).unwrap()), expected);
+    assert_eq!(corners(&read("cube.obj", CUBE)), expected);
 }
 
 #[test]
 fn stl_corners_become_shared_vertices() {
-    let cube = read("cube.obj", CUBE).unwrap();
+    let cube = read("cube.obj", CUBE);
     let files: [(&str, Vec<u8>); 4] = [
         ("text", text_stl(&cube).into()),
         ("text with CRLF", text_stl(&cube).replace('\n', "\r\n").into()),
@@ -112,7 +125,7 @@ fn stl_corners_become_shared_vertices() {
         ("binary", binary_stl(&cube)),
     ];
     for (what, bytes) in files {
-        let mesh = read("cube.stl", bytes).unwrap();
+        let mesh = read("cube.stl", bytes);
         assert_eq!((mesh.positions.len(), mesh.triangles.len()), (8, 12), "{what}");
         assert_closed(&mesh);
         assert_eq!(corners(&mesh), corners(&cube), "{what}");
@@ -121,9 +134,9 @@ fn stl_corners_become_shared_vertices() {
 
 #[test]
 fn a_binary_stl_may_begin_like_a_text() {
-    let mut bytes = binary_stl(&read("cube.obj", CUBE).unwrap());
+    let mut bytes = binary_stl(&read("cube.obj", CUBE));
     bytes[..6].copy_from_slice(b"solid ");
-    assert_eq!(read("cube.stl", bytes).unwrap().triangles.len(), 12);
+    assert_eq!(read("cube.stl", bytes).triangles.len(), 12);
 }
 
 #[test]
@@ -155,47 +168,39 @@ fn malformed_files_are_refused_with_the_line() {
         ("a.stl", "solid\nfacets".into(), Some(2), "\"facets\" is not `facet`"),
         ("a.stl", "x".repeat(200), None, "announces"),
         ("a.stl", String::new(), None, "neither"),
-        ("a.ply", String::new(), None, "\"ply\""),
     ];
     for (name, text, line, part) in cases {
-        let (at, message) = refusal(name, &text);
-        assert_eq!(at, line, "{text:?}: {message}");
+        let (place, message) = refusal(name, &text);
+        assert_eq!(place, line.map(Place::Line), "{text:?}: {message}");
         assert!(message.contains(part), "{text:?}: {message}");
     }
 }
 
 #[test]
 fn every_truncation_is_refused_or_whole() {
-    let cube = read("cube.obj", CUBE).unwrap();
-    let folder = TempDir::new().unwrap();
+    let cube = read("cube.obj", CUBE);
     let text = text_stl(&cube);
     let last_keyword = text.rfind("endsolid").unwrap() + "endsolid".len();
     let binary = binary_stl(&cube);
     let first_face = CUBE.find("\r\nf ").unwrap();
-    for (name, bytes, needed) in [
-        ("cube.obj", CUBE.as_bytes(), first_face),
-        ("cube.stl", text.as_bytes(), last_keyword),
-        ("cube.stl", &binary, binary.len()),
-    ] {
-        let path = folder.path().join(name);
-        for end in 0..bytes.len() {
-            std::fs::write(&path, &bytes[..end]).unwrap();
-            match mesh_file::read(&path) {
-                Ok(mesh) => {
-                    assert!(end >= needed, "{name} {end}");
-                    assert!(
-                        mesh.triangles.as_flattened().iter().all(|&v| (v as usize) < mesh.positions.len())
-                    );
-                }
-                Err(error) => assert!(matches!(error, Error::Mesh { .. }), "{name} {end}: {error}"),
-            }
+    assert_truncations_are_refused("cube.obj", CUBE.as_bytes(), first_face);
+    assert_truncations_are_refused("cube.stl", text.as_bytes(), last_keyword);
+    assert_truncations_are_refused("cube.stl", &binary, binary.len());
+}
+
+/// What is left of a file that was cut off is refused, or has at least the bytes that are needed and is sound.
+fn assert_truncations_are_refused(name: &str, bytes: &[u8], needed: usize) {
+    for end in 0..bytes.len() {
+        if let Ok(MeshFile { mesh, .. }) = parse(name, &bytes[..end]) {
+            assert!(end >= needed, "{name} {end}");
+            assert!(mesh.triangles.as_flattened().iter().all(|&v| (v as usize) < mesh.positions.len()));
         }
     }
 }
 
 #[test]
 fn a_count_that_the_file_cannot_hold_is_refused_without_being_believed() {
-    let mut bytes = binary_stl(&read("cube.obj", CUBE).unwrap());
+    let mut bytes = binary_stl(&read("cube.obj", CUBE));
     bytes[80..84].copy_from_slice(&u32::MAX.to_le_bytes());
     assert!(refusal("cube.stl", &bytes).1.contains("announces"));
     bytes[80..84].copy_from_slice(&12u32.to_le_bytes());
@@ -210,8 +215,10 @@ fn a_path_must_stay_in_the_folder() {
     std::fs::create_dir_all(folder.join("meshes")).unwrap();
     std::fs::write(outer.path().join("secret.obj"), CUBE).unwrap();
     std::fs::write(folder.join("meshes/cube.obj"), CUBE).unwrap();
-    assert!(mesh_file::read_inside(&folder, "meshes/cube.obj").is_ok());
-    assert!(mesh_file::read_inside(&folder, "./meshes/cube.obj").is_ok());
+    let inside = |path: &str| mesh_file::read_inside(&folder, path, &Limits::default());
+    let is_read = |path: &str| inside(path).is_ok();
+    assert!(is_read("meshes/cube.obj"));
+    assert!(is_read("./meshes/cube.obj"));
     let absolute = outer.path().join("secret.obj");
     for path in [
         "",
@@ -220,17 +227,18 @@ fn a_path_must_stay_in_the_folder() {
         "meshes/../meshes/cube.obj",
         absolute.to_str().unwrap(),
     ] {
-        assert!(matches!(mesh_file::read_inside(&folder, path), Err(Error::Mesh { .. })), "{path}");
+        assert!(matches!(inside(path), Err(Error::Mesh { .. })), "{path}");
     }
-    for path in ["meshes/none.obj", "meshes"] {
-        assert!(matches!(mesh_file::read_inside(&folder, path), Err(Error::Io { .. })), "{path}");
+    std::fs::create_dir(folder.join("folder.obj")).unwrap();
+    for path in ["meshes/none.obj", "folder.obj"] {
+        assert!(matches!(inside(path), Err(Error::Io { .. })), "{path}");
     }
     #[cfg(unix)]
     {
         std::os::unix::fs::symlink("../../secret.obj", folder.join("meshes/out.obj")).unwrap();
         std::os::unix::fs::symlink("cube.obj", folder.join("meshes/in.obj")).unwrap();
-        assert!(matches!(mesh_file::read_inside(&folder, "meshes/out.obj"), Err(Error::Mesh { .. })));
-        assert!(mesh_file::read_inside(Path::new(&folder), "meshes/in.obj").is_ok());
+        assert!(matches!(inside("meshes/out.obj"), Err(Error::Mesh { .. })));
+        assert!(is_read("meshes/in.obj"));
     }
 }
 
@@ -252,7 +260,7 @@ proptest! {
         let mut text: String = polygon.iter().map(|p| format!("v {} {} {}\n", p.x, p.y, p.z)).collect();
         text += "f";
         text.extend((1..=polygon.len()).map(|i| format!(" {i}")));
-        let mesh = read("star.obj", text).unwrap();
+        let mesh = read("star.obj", text);
         prop_assert_eq!(mesh.triangles.len(), polygon.len() - 2);
         // No triangle turns the other way, and together they have the polygon's area: no overlap, no gap.
         let areas: Vec<f32> = corners(&mesh).iter().map(|[a, b, c]| (b - a).cross(c - a).y / 2.0).collect();
@@ -264,11 +272,12 @@ proptest! {
 
     #[test]
     fn no_bytes_break_a_reader(bytes in prop::collection::vec(any::<u8>(), 0..300), damage in 0usize..400, byte: u8) {
-        let _ = read("noise.stl", &bytes);
-        let _ = read("noise.obj", &bytes);
+        for name in ["noise.stl", "noise.obj", "noise.ply", "noise.glb"] {
+            let _ = parse(name, &bytes);
+        }
         let mut damaged = CUBE.as_bytes().to_vec();
         let place = damage % damaged.len();
         damaged[place] = byte;
-        let _ = read("damaged.obj", &damaged);
+        let _ = parse("damaged.obj", &damaged);
     }
 }

@@ -1,0 +1,104 @@
+//! The engine in WebAssembly and the npm package around it.
+
+use std::path::{Path, PathBuf};
+
+use crate::command::{cargo, exists, output, program, run};
+use crate::project::Project;
+use crate::steps::Outcome;
+
+/// The npm package.
+const PACKAGE: &str = "bindings/wasm/npm";
+const TARGET: &str = "wasm32-unknown-unknown";
+/// What the engine uses beyond the first version of WebAssembly, and what wasm-bindgen needs.
+const FEATURES: &[&str] = &[
+    "--enable-simd",
+    "--enable-bulk-memory",
+    "--enable-nontrapping-float-to-int",
+    "--enable-sign-ext",
+    "--enable-mutable-globals",
+    "--enable-multivalue",
+    "--enable-reference-types",
+];
+/// The most bytes of the engine as it is sent, gzipped.
+const MOST_BYTES: usize = 500_000;
+
+/// Builds the package: the engine, its glue, its types.
+pub(crate) fn build(project: &Project) -> Result<(), String> {
+    let package = project.root.join(PACKAGE);
+    run(&mut program(project, "rustup", &["target", "add", TARGET]))?;
+    let engine = ["build", "--locked", "--package", "tautline-wasm", "--target", TARGET, "--profile", "web"];
+    run(&mut cargo(project, &engine))?;
+    install_packages(project, &package)?;
+    write_glue(project)?;
+    optimise(project, &package)?;
+    for script in ["document", "build"] {
+        run(npm(project, &["run", script]).current_dir(&package))?;
+    }
+    Ok(())
+}
+
+/// The package builds, is small, has what it should, and does what its tests say, the bits of the native engine included.
+pub(crate) fn web(project: &Project) -> Result<Outcome, String> {
+    if !(exists("node") && exists("npm")) {
+        return Ok(Outcome::LeftOut("the npm package, which needs Node".into()));
+    }
+    build(project)?;
+    let package = project.root.join(PACKAGE);
+    run(npm(project, &["run", "check"]).current_dir(&package))?;
+    run(&mut cargo(project, &["build", "--locked", "--release", "--package", "tautline-cli"]))?;
+    run(npm(project, &["test"]).current_dir(&package).env("TAUTLINE", project.tautline("release")))?;
+    let size = gzipped_size(project)?;
+    let note = format!("the engine is {} kB gzipped", size / 1000);
+    if size > MOST_BYTES {
+        Err(format!("{note}, more than {}", MOST_BYTES / 1000))
+    } else {
+        Ok(Outcome::Noted(note))
+    }
+}
+
+fn npm(project: &Project, arguments: &[&str]) -> std::process::Command {
+    program(project, "npm", arguments)
+}
+
+/// As the lock file says, unless they are there.
+fn install_packages(project: &Project, package: &Path) -> Result<(), String> {
+    let changed = |file: &str| package.join(file).metadata().and_then(|data| data.modified()).ok();
+    let installed = changed("node_modules/.package-lock.json");
+    if installed.is_some() && installed >= changed("package-lock.json") {
+        return Ok(());
+    }
+    run(npm(project, &["ci", "--no-audit", "--no-fund"]).current_dir(package))
+}
+
+/// Writes what JavaScript calls the engine by. The tool has a workspace of its own.
+fn write_glue(project: &Project) -> Result<(), String> {
+    let folder = project.target.join("bindgen");
+    let manifest = "bindings/wasm/bindgen/Cargo.toml";
+    let mut tool = cargo(project, &["build", "--locked", "--manifest-path", manifest]);
+    run(tool.env("CARGO_TARGET_DIR", &folder))?;
+    let tool = folder.join("debug").join(format!("bindgen{}", std::env::consts::EXE_SUFFIX));
+    let module = project.target.join(TARGET).join("web/tautline_wasm.wasm");
+    let engine = PathBuf::from(PACKAGE).join("src/engine");
+    run(program(project, tool, &[]).arg(module).arg(engine))
+}
+
+/// Makes the engine smaller and faster. The features are named one by one: what a browser must have is what is used.
+fn optimise(project: &Project, package: &Path) -> Result<(), String> {
+    let engine = package.join("src/engine/engine_bg.wasm");
+    let mut tool = program(project, package.join("node_modules/.bin/wasm-opt"), &["-O3"]);
+    tool.args(FEATURES)
+        .args(["--strip-debug", "--strip-producers"])
+        .arg(&engine)
+        .arg("--output")
+        .arg(&engine);
+    run(&mut tool)
+}
+
+fn gzipped_size(project: &Project) -> Result<usize, String> {
+    let script = "import { gzipSync } from 'node:zlib'; import { readFileSync } from 'node:fs'; \
+                  console.log(gzipSync(readFileSync(process.argv[1]), { level: 9 }).length)";
+    let engine = PathBuf::from(PACKAGE).join("dist/engine/engine_bg.wasm");
+    let mut node = program(project, "node", &["--input-type=module", "--eval", script]);
+    let text = output(node.arg(engine))?;
+    text.trim().parse().map_err(|_| format!("{text:?} is not a size"))
+}
