@@ -222,9 +222,10 @@ impl Tape {
         let scene = &mut state.scene;
         scene.draw_walls();
         let frame_rate = 1.0 / (plan.dt * plan.every as f32);
-        let recorder = record.then(|| Recorder::new(&scene.name, frame_rate, &scene.parts, &scene.world));
+        let recorder =
+            record.then(|| Recorder::new(&scene.name, frame_rate, &scene.parts, &scene.world)).transpose();
         drop(state);
-        let mut tape = Self { steps: 0, recorder: recorder.transpose()?, series: Series::default() };
+        let mut tape = Self { steps: 0, recorder: recorder?, series: Series::default() };
         let noted = tape.note(&world.lock(py).scene, 0);
         noted?;
         Ok(tape)

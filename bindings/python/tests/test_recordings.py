@@ -1,6 +1,7 @@
 """Recordings: what they hold, and the files they become, opened by those files' own readers."""
 
 import base64
+import html
 import io
 import json
 import re
@@ -140,14 +141,19 @@ def test_a_film(recording: tl.Recording, tmp_path: Path) -> None:
     assert data[4:8] == b"ftyp" and b"moov" in data and b"avc1" in data
 
 
-def test_a_notebook_shows_pictures_that_need_no_file(recording: tl.Recording) -> None:
-    for shown, kind in ((recording, "gif"), (tl.Scene.named("tower", n=2).build(), "png")):
-        html = shown._repr_html_()
-        found = re.search(r'src="data:image/(\w+);base64,([^"]+)"', html)
-        assert found is not None and found[1] == kind
-        image = pytest.importorskip("PIL.Image")
-        with image.open(io.BytesIO(base64.b64decode(found[2]))) as picture:
-            assert picture.size == (480, 360)
+def test_a_notebook_plays_a_recording_and_shows_a_world(recording: tl.Recording, tmp_path: Path) -> None:
+    image = pytest.importorskip("PIL.Image")
+    recording.save(tmp_path / "a.html")
+    page = (tmp_path / "a.html").read_text(encoding="utf-8")
+    assert page.startswith("<!doctype html>") and "a cloth" in page
+    assert not re.search(r'(src|href)="(http|//)', page), "it asks for nothing"
+    shown = recording._repr_html_()
+    frame = re.fullmatch(r'<iframe title="world" .* sandbox="allow-scripts" srcdoc="([^"]*)"></iframe>', shown, re.DOTALL)
+    assert frame is not None and html.unescape(frame[1]) == page
+    picture = re.search(r'src="data:image/png;base64,([^"]+)"', tl.Scene.named("tower", n=2).build()._repr_html_())
+    assert picture is not None
+    with image.open(io.BytesIO(base64.b64decode(picture[1]))) as opened:
+        assert opened.size == (640, 480)
 
 
 def test_plots(recording: tl.Recording, tmp_path: Path) -> None:

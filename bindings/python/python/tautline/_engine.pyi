@@ -992,6 +992,7 @@ class Recording:
 
         Args:
             path: ``.gif``, ``.mp4``, ``.png``: pictures; ``.glb``, ``.usd``, ``.usda``, ``.usdc``: scenes with motion;
+                ``.html``: a page that plays it, in itself;
                 ``.pc2``: a point cache, with its mesh as ``.obj`` beside it; ``.obj``, ``.ply``: a mesh for each frame;
                 ``.npz``: arrays.
             size: Width and height of pictures, in pixels; (640, 480) if absent.
