@@ -49,7 +49,7 @@ impl From<tautline_scene::Error> for Failure {
         use tautline_scene::Error;
         let text = error.to_string();
         match error {
-            Error::Engine(error) => return error.into(),
+            Error::Engine(error) => error.into(),
             Error::Io { path, source } => {
                 let path = path.display().to_string();
                 // With a number Python picks the class, such as FileNotFoundError.
