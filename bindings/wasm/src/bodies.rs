@@ -16,7 +16,9 @@ impl Session {
         let mut first = 0;
         let mut all = Vec::new();
         for handle in self.scene.world().bodies() {
-            let (Ok(body), Some(part)) = (self.scene.world().body(handle), self.scene.part(handle)) else { continue };
+            let (Ok(body), Some(part)) = (self.scene.world().body(handle), self.scene.part(handle)) else {
+                continue;
+            };
             let count = body.positions().len();
             let mesh = self.meshes.number(part);
             let number = self.scene.bodies().number(handle);

@@ -22,7 +22,11 @@ impl Failure {
     }
 
     fn of(kind: &'static str, path: impl Into<String>, message: impl Into<String>) -> Self {
-        Self { kind, problems: vec![Problem { path: path.into(), message: message.into() }], places: vec![None] }
+        Self {
+            kind,
+            problems: vec![Problem { path: path.into(), message: message.into() }],
+            places: vec![None],
+        }
     }
 
     /// With the places of problems in the text that they are of, where those are not known yet.
@@ -32,6 +36,11 @@ impl Failure {
             *place = place.or_else(|| locate(text, format, &problem.path));
         }
         self
+    }
+
+    /// Forgets where in a text its problems are.
+    pub(crate) fn forget_places(&mut self) {
+        self.places.fill(None);
     }
 
     /// Its problems, each as an object.
@@ -52,7 +61,9 @@ impl From<tautline::Error> for Failure {
     fn from(error: tautline::Error) -> Self {
         use tautline::Error as E;
         match error {
-            E::OutOfRange { field, value, expected } => Self::invalid(field, format!("{value} is not {expected}")),
+            E::OutOfRange { field, value, expected } => {
+                Self::invalid(field, format!("{value} is not {expected}"))
+            }
             E::Invalid { field, problem } => Self::invalid(field, problem),
             E::StaleHandle => Self::of("stale", "", error.to_string()),
             E::Mesh(defect) => Self::invalid("mesh", defect.to_string()),

@@ -9,7 +9,13 @@ use crate::session::{Session, vec3};
 
 #[wasm_bindgen]
 impl Session {
-    pub fn grab(&mut self, body: u32, point: &[f32], frequency: f32, max_acceleration: f32) -> Result<u32, JsValue> {
+    pub fn grab(
+        &mut self,
+        body: u32,
+        point: &[f32],
+        frequency: f32,
+        max_acceleration: f32,
+    ) -> Result<u32, JsValue> {
         let grip = Grip { frequency, max_acceleration };
         let grab = self.with_body(body, |world, body| world.grab(body, vec3(point), grip))?;
         Ok(self.grabs.push_new(grab))
@@ -77,7 +83,12 @@ impl Session {
         self.with_body(body, |world, body| world.unpin(body, particle))
     }
 
-    pub fn set_particle_position(&mut self, body: u32, particle: u32, position: &[f32]) -> Result<(), JsValue> {
+    pub fn set_particle_position(
+        &mut self,
+        body: u32,
+        particle: u32,
+        position: &[f32],
+    ) -> Result<(), JsValue> {
         self.with_body(body, |world, body| world.set_particle_position(body, particle, vec3(position)))
     }
 

@@ -109,7 +109,8 @@ impl Session {
 
 fn told(trace: &GjkTrace, vertex: &CsoVertex) -> Value {
     let [a, b] = [vertex.a, vertex.b].map(|index| index as usize);
-    let place = |side: usize, index: usize| trace.hulls[side].get(index).copied().unwrap_or_default().to_array();
+    let place =
+        |side: usize, index: usize| trace.hulls[side].get(index).copied().unwrap_or_default().to_array();
     json!({ "point": vertex.point.to_array(), "onA": place(0, a), "onB": place(1, b) })
 }
 
@@ -128,8 +129,10 @@ fn iteration(trace: &GjkTrace, step: &Iteration) -> Value {
 }
 
 fn feature(hull: &[Vec3], point: &FeaturePoint) -> Value {
-    let places: Vec<_> =
-        point.iter().map(|(index, _)| hull.get(index as usize).copied().unwrap_or_default().to_array()).collect();
+    let places: Vec<_> = point
+        .iter()
+        .map(|(index, _)| hull.get(index as usize).copied().unwrap_or_default().to_array())
+        .collect();
     let weights: Vec<f32> = point.iter().map(|(_, weight)| weight).collect();
     json!({ "points": places, "weights": weights })
 }

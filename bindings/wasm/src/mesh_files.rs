@@ -40,5 +40,6 @@ pub fn mesh_info(text: &str) -> Result<String, JsValue> {
     let (vertices, faces) = (positions.len(), triangles.len());
     let mesh = TriMesh { positions: positions.into_iter().map(Into::into).collect(), triangles };
     let is_closed = HalfEdgeMesh::from_mesh(&mesh).is_ok_and(|mesh| mesh.boundary_loops().is_empty());
-    Ok(json!({ "vertices": vertices, "triangles": faces, "closed": is_closed, "min": min, "max": max }).to_string())
+    Ok(json!({ "vertices": vertices, "triangles": faces, "closed": is_closed, "min": min, "max": max })
+        .to_string())
 }

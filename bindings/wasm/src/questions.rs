@@ -12,15 +12,28 @@ use crate::session::{Session, vec3};
 #[wasm_bindgen]
 impl Session {
     /// `which` is a body that is left out or −1, then whether what is fixed and what can move is found.
-    pub fn ray_cast(&self, origin: &[f32], direction: &[f32], max: f32, which: &[i32]) -> Result<String, JsValue> {
+    pub fn ray_cast(
+        &self,
+        origin: &[f32],
+        direction: &[f32],
+        max: f32,
+        which: &[i32],
+    ) -> Result<String, JsValue> {
         let filter = self.filter(which)?;
         let hit = self.world().ray_cast(vec3(origin), vec3(direction), max, filter).map_err(Failure::from)?;
         Ok(json!(hit.map(|hit| self.ray_hit(hit))).to_string())
     }
 
-    pub fn ray_cast_all(&self, origin: &[f32], direction: &[f32], max: f32, which: &[i32]) -> Result<String, JsValue> {
+    pub fn ray_cast_all(
+        &self,
+        origin: &[f32],
+        direction: &[f32],
+        max: f32,
+        which: &[i32],
+    ) -> Result<String, JsValue> {
         let filter = self.filter(which)?;
-        let hits = self.world().ray_cast_all(vec3(origin), vec3(direction), max, filter).map_err(Failure::from)?;
+        let hits =
+            self.world().ray_cast_all(vec3(origin), vec3(direction), max, filter).map_err(Failure::from)?;
         Ok(Value::from(hits.into_iter().map(|hit| self.ray_hit(hit)).collect::<Vec<_>>()).to_string())
     }
 

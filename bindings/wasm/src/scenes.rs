@@ -1,7 +1,8 @@
 //! Scene documents and the named scenes, without a world.
 
 use serde_json::{Value, json};
-use tautline_scene::document::{self, Format, Scene, Solver, parse};
+use tautline_scene::Error;
+use tautline_scene::document::{Format, SCHEMA, Scene, Solver, json_of_json5, parse_part};
 use tautline_scene::registry::{self, NamedScene, Parameter};
 use wasm_bindgen::prelude::*;
 
@@ -43,7 +44,7 @@ pub fn document(name: &str, names: Vec<String>, values: &[f64]) -> Result<String
 /// The JSON schema of documents.
 #[wasm_bindgen]
 pub fn schema() -> String {
-    document::json_schema()
+    SCHEMA.to_owned()
 }
 
 /// What is wrong with a document, `[]` if nothing.
@@ -79,15 +80,25 @@ pub fn with_solver(text: &str, solver: &str) -> Result<String, JsValue> {
 
 /// A document, read but not judged.
 pub(crate) fn read(text: &str, format: &str) -> Result<Scene, Failure> {
-    Ok(parse(text.strip_prefix('\u{feff}').unwrap_or(text), notation(format)?)?)
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    match notation(format)? {
+        Format::Json5 => parse_part(&json_of_json5(text)?).map_err(without_place),
+        _ => Ok(parse_part(text)?),
+    }
+}
+
+/// A refusal of JSON that was made of JSON5, in which its place says nothing.
+fn without_place(error: Error) -> Failure {
+    let mut failure = Failure::from(error);
+    failure.forget_places();
+    failure
 }
 
 pub(crate) fn notation(format: &str) -> Result<Format, Failure> {
     match format {
         "json" => Ok(Format::Json),
         "json5" => Ok(Format::Json5),
-        "toml" => Ok(Format::Toml),
-        other => Err(Failure::invalid("format", format!("{other:?} is no format: json, json5 or toml"))),
+        other => Err(Failure::invalid("format", format!("{other:?} is no format: json or json5"))),
     }
 }
 

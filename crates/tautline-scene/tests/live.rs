@@ -1,6 +1,8 @@
 //! Scenes that change while they run.
 
-use tautline_scene::document::{Body, BodyRef, Cloth, HalfSpace, Joint, JointKind, Rigid, Room, Scene, Settings};
+use tautline_scene::document::{
+    Body, BodyRef, Cloth, HalfSpace, Joint, JointKind, Rigid, Room, Scene, Settings,
+};
 use tautline_scene::live::LiveScene;
 use tautline_scene::{Error, registry};
 
@@ -55,7 +57,8 @@ fn numbers_are_of_bodies_in_their_order_and_not_used_again() {
 
 #[test]
 fn bodies_are_judged_as_those_of_documents() {
-    let mut scene = LiveScene::new(Scene { bodies: vec![ball("a")], ..Scene::default() }).expect("it is right");
+    let mut scene =
+        LiveScene::new(Scene { bodies: vec![ball("a")], ..Scene::default() }).expect("it is right");
     let wrong = Rigid { mass: Some(-1.0), friction: f32::NAN, ..Rigid::default() };
     assert_eq!(problems(scene.add(Body::Rigid(wrong))), ["rigid.mass", "rigid.friction"]);
     assert_eq!(problems(scene.add(ball("a"))), ["rigid.name"]);
@@ -68,7 +71,8 @@ fn bodies_are_judged_as_those_of_documents() {
 fn joints_name_bodies_by_number_or_name() {
     let document = Scene { bodies: vec![Body::Room(Room::default()), ball("a")], ..Scene::default() };
     let mut scene = LiveScene::new(document).expect("it is right");
-    let other = scene.add(Body::Rigid(Rigid { position: [1.5, 3.0, 0.0], ..Rigid::default() })).expect("it is right");
+    let other =
+        scene.add(Body::Rigid(Rigid { position: [1.5, 3.0, 0.0], ..Rigid::default() })).expect("it is right");
     let joint = |body: u32| Joint {
         body: BodyRef::Index(body),
         base: Some(BodyRef::Name("a".to_owned())),
@@ -119,7 +123,8 @@ fn a_snapshot_of_another_scene_is_drawn_as_what_it_is() {
 
 #[test]
 fn a_recording_has_what_came_and_keeps_what_went() {
-    let mut scene = LiveScene::new(Scene { bodies: vec![ball("a")], ..Scene::default() }).expect("it is right");
+    let mut scene =
+        LiveScene::new(Scene { bodies: vec![ball("a")], ..Scene::default() }).expect("it is right");
     scene.start_recording().expect("all of it can be drawn");
     steps(&mut scene, 3);
     let added = scene.add(Body::Cloth(Cloth::default())).expect("it is right");

@@ -5,7 +5,7 @@ import { guarded, invalid, TautlineError, type Problem } from "./errors.js";
 import { ready } from "./init.js";
 
 /** A notation of documents; `json5` reads JSON too. */
-export type Format = "json" | "json5" | "toml";
+export type Format = "json" | "json5";
 
 /** A scene with a name and parameters. */
 export interface NamedScene {

@@ -47,7 +47,8 @@ test("numbers that are none", () => {
 test("documents of millions of bodies, and ones without end", () => {
   refused(() => new World(`{"tautline":1,"bodies":[${"{\"rigid\":{}},".repeat(200_000)}{}]}`), "parse", "bodies");
   const sheet = cloth({ surface: { grid: { columns: 1e6, rows: 1e6, width: 1, depth: 1 } } });
-  refused(() => new World({ tautline: 1, bodies: [sheet] }), "invalid", "bodies");
+  const { problems } = refused(() => new World({ tautline: 1, bodies: [sheet] }), "invalid", "bodies[0].cloth.surface.grid.columns");
+  assert.match(problems.at(-1).message, /1000000000000 particles, more than/);
   refused(() => new World({ tautline: 1, bodies: [cloth({ surface: { grid: { columns: 1e300, rows: 2, width: 1, depth: 1 } } })] }), "parse", "bodies[0].cloth.surface.grid.columns");
   refused(() => tautline.document("icosahedra", { n: 1e7 }), "invalid", "parameters.n");
   refused(() => tautline.document("icosahedra", { endless: 1 }), "invalid", "parameters.endless");
@@ -55,14 +56,14 @@ test("documents of millions of bodies, and ones without end", () => {
 });
 
 test("texts that nest without end", () => {
-  for (const [open, format] of [["[", "json"], ["[", "json5"], ["{\"a\":", "json"], ["a=[", "toml"]]) {
+  for (const [open, format, path] of [["[", "json", "[0]"], ["[", "json5", ""], ["{\"a\":", "json", "a"], ["{a:", "json5", ""]]) {
     const text = open.repeat(100_000);
-    refused(() => new World(text, { format }), "parse", "");
+    refused(() => new World(text, { format }), "parse", path);
     assert.equal(tautline.validate(text, format).length, 1);
   }
   const deep = `{"compound":{"parts":[{"shape":`;
   const shape = `${deep.repeat(20_000)}{}${"}]}}".repeat(20_000)}`;
-  refused(() => new World(`{"tautline":1,"bodies":[{"rigid":{"shape":${shape}}}]}`), "parse", "");
+  assert.throws(() => new World(`{"tautline":1,"bodies":[{"rigid":{"shape":${shape}}}]}`), /recursion limit exceeded/);
   let nested = {};
   for (let i = 0; i < 1e5; i++) nested = { nested };
   refused(() => new World(nested), "invalid", "scene");

@@ -60,7 +60,7 @@ test("bodies are described as they were asked for", () => {
   assert.equal(a.mesh, b.mesh, "two boxes of one size share their mesh");
   assert.equal(a.mesh.indices.length, 36);
   assert.deepEqual(a.position, [1, 2, 3]);
-  assert.deepEqual(a.rotation.map(Math.round), [0, 0, 0, 1]);
+  assert.deepEqual(a.rotation.map((part) => Math.abs(Math.round(part))), [0, 0, 0, 1], "a quaternion or its opposite");
   assert.ok(Math.abs(a.mass - 6000) < 0.01);
   assert.deepEqual([line.look, line.segments.length, line.particleCount], ["tube", 100, 51]);
   assert.deepEqual([floor.look, floor.position, floor.mesh.indices.length], ["wall", undefined, 6]);
@@ -95,9 +95,9 @@ test("what is grabbed goes where the hand goes, and flies on", () => {
   const world = new World(undefined, {});
   world.setSettings({ gravity: [0, 0, 0] });
   const cube = world.add(rigid());
-  const grab = world.grab(cube, [0, 0.5, 0]);
+  const grab = world.grab(cube, [0, 0, 0]);
   for (let i = 1; i <= 60; i++) {
-    world.moveGrab(grab, [i / 30, 0.5, 0]);
+    world.moveGrab(grab, [i / 30, 0, 0]);
     world.step();
   }
   assert.ok(Math.abs(world.body(cube).centerOfMass[0] - 2) < 0.2);
@@ -159,9 +159,9 @@ test("a snapshot and a reset give the same bits again", () => {
 });
 
 test("a recording is a GLB file with as many frames", () => {
-  const world = new World(tautline.document("cloth-on-cube"), { record: true });
+  const world = new World({ ...tautline.document("cloth-on-cube"), record_every: 2 }, { record: true });
   for (let i = 0; i < 5; i++) world.step();
-  assert.ok(world.isRecording && world.recordedFrames >= 3);
+  assert.ok(world.isRecording && world.recordedFrames === 3);
   world.add(rigid({ position: [0, 5, 0] }));
   world.step();
   const glb = world.exportGlb();

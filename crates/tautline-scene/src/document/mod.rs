@@ -31,7 +31,7 @@ pub use cloth::{Cloth, Creep};
 pub use cue::Cue;
 pub use joint::{Joint, JointKind, Motor, Spring};
 pub use locate::locate;
-pub use parse::{Format, parse, parse_part};
+pub use parse::{Format, json_of_json5, parse, parse_part};
 pub use rigid::{Damping, Groups, Motion, Rigid};
 pub use settings::{BroadPhase, Ordering, Settings, Sleep, Solver, SquareRoot};
 pub use shape::{MeshFile, MeshSource, PartOfCompound, Shape, Surface, Thread};
@@ -146,6 +146,9 @@ pub struct Bounds {
     /// Corner with the largest coordinates, in m.
     pub max: [f32; 3],
 }
+
+/// What [`json_schema`] returns, as it is committed: without the code that makes it.
+pub const SCHEMA: &str = include_str!("../../schema/scene.schema.json");
 
 /// The JSON Schema of the format, indented, for editors and other programs.
 pub fn json_schema() -> String {

@@ -103,4 +103,15 @@ impl Lanes for Portable {
     fn min(self, other: Self) -> Self {
         Self(self.0.fast_min(other.0), self.1.fast_min(other.1))
     }
+    // In WebAssembly the second of the instruction's operands is what the trait calls the first.
+    #[cfg(target_feature = "simd128")]
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(other.0.fast_max(self.0), other.1.fast_max(self.1))
+    }
+    #[cfg(target_feature = "simd128")]
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(other.0.fast_min(self.0), other.1.fast_min(self.1))
+    }
 }

@@ -3,8 +3,8 @@ import type { Vec3 } from "../checks.js";
 
 /** Lines that are drawn anew whenever they change, such as what holds what. */
 export class DebugLines extends LineSegments<BufferGeometry, LineBasicMaterial> {
-  private readonly color = new Color();
-  private count = 0;
+  private readonly shade = new Color();
+  private corners = 0;
   private room = 256;
   private places = new Float32Array(3 * this.room);
   private colors = new Float32Array(3 * this.room);
@@ -13,23 +13,23 @@ export class DebugLines extends LineSegments<BufferGeometry, LineBasicMaterial> 
     super(new BufferGeometry(), new LineBasicMaterial({ vertexColors: true, depthTest: false, transparent: true }));
     this.frustumCulled = false;
     this.renderOrder = 1;
-    this.attach();
+    this.show();
   }
 
   /** Takes all lines away. */
-  clear(): this {
-    this.count = 0;
+  override clear(): this {
+    this.corners = 0;
     return this;
   }
 
   /** Adds a line; the colour is 0xrrggbb, sRGB. */
   line(a: Vec3, b: Vec3, color: number): void {
-    this.color.setHex(color);
+    this.shade.setHex(color);
     for (const [x, y, z] of [a, b]) {
       this.grow();
-      this.places.set([x, y, z], 3 * this.count);
-      this.color.toArray(this.colors, 3 * this.count);
-      this.count += 1;
+      this.places.set([x, y, z], 3 * this.corners);
+      this.shade.toArray(this.colors, 3 * this.corners);
+      this.corners += 1;
     }
   }
 
@@ -43,17 +43,17 @@ export class DebugLines extends LineSegments<BufferGeometry, LineBasicMaterial> 
 
   /** Shows what was added since `clear`. */
   commit(): void {
-    this.geometry.setDrawRange(0, this.count);
+    this.geometry.setDrawRange(0, this.corners);
     for (const name of ["position", "color"]) this.geometry.getAttribute(name).needsUpdate = true;
   }
 
-  dispose(): void {
+  override dispose(): void {
     this.geometry.dispose();
     this.material.dispose();
   }
 
   private grow(): void {
-    if (this.count < this.room) return;
+    if (this.corners < this.room) return;
     this.room *= 2;
     const [places, colors] = [new Float32Array(3 * this.room), new Float32Array(3 * this.room)];
     places.set(this.places);
@@ -61,10 +61,10 @@ export class DebugLines extends LineSegments<BufferGeometry, LineBasicMaterial> 
     [this.places, this.colors] = [places, colors];
     // Attributes cannot grow: what the graphics card has of the old ones is let go.
     this.geometry.dispose();
-    this.attach();
+    this.show();
   }
 
-  private attach(): void {
+  private show(): void {
     this.geometry.setAttribute("position", new BufferAttribute(this.places, 3).setUsage(DynamicDrawUsage));
     this.geometry.setAttribute("color", new BufferAttribute(this.colors, 3).setUsage(DynamicDrawUsage));
   }

@@ -111,7 +111,7 @@ export class WorldView extends Group {
     this.highlighted = body;
   }
 
-  dispose(): void {
+  override dispose(): void {
     for (const mesh of [...this.solids.map((one) => one.mesh), ...this.softs.map((one) => one.mesh), ...this.walls]) {
       mesh.geometry.dispose();
       for (const material of [mesh.material].flat()) material.dispose();
