@@ -3,7 +3,7 @@
 import type { Playground } from "../app/playground";
 
 const MESHES = ["obj", "stl", "ply", "glb"];
-const DOCUMENTS = ["json", "json5", "toml"];
+const DOCUMENTS = ["json"];
 /** What the engine reads at most, bytes; told before the file is. */
 const MOST_BYTES = 64 << 20;
 /** What the editor shows at most, bytes. */
@@ -41,7 +41,7 @@ export async function openFile(playground: Playground, file: File): Promise<void
     await playground.open({ kind: "text", text: await file.text() }, true);
     return;
   }
-  return refuse("no known ending: meshes are .obj, .stl, .ply or .glb, scenes .json, .json5 or .toml.");
+  return refuse("no known ending: meshes are .obj, .stl, .ply or .glb, scenes .json.");
 }
 
 function megabytes(bytes: number): string {
