@@ -20,7 +20,7 @@ fn with(name: &str, assignments: &[&str]) -> Scene {
 }
 
 /// The scenes with what the paper does not have.
-const NOT_FOR_PAPER: [&str; 13] = [
+const NOT_FOR_PAPER: [&str; 16] = [
     "bullets",
     "mixed-pile",
     "chain",
@@ -34,6 +34,9 @@ const NOT_FOR_PAPER: [&str; 13] = [
     "knot",
     "mesh-drop",
     "scan-drape",
+    "flag",
+    "balloon",
+    "tear",
 ];
 
 /// A scene's document for each solver that it is for.
