@@ -20,7 +20,7 @@ fn with(name: &str, assignments: &[&str]) -> Scene {
 }
 
 /// The scenes with what the paper does not have.
-const NOT_FOR_PAPER: [&str; 16] = [
+const NOT_FOR_PAPER: [&str; 15] = [
     "bullets",
     "mixed-pile",
     "chain",
@@ -35,7 +35,6 @@ const NOT_FOR_PAPER: [&str; 16] = [
     "mesh-drop",
     "scan-drape",
     "flag",
-    "balloon",
     "tear",
 ];
 

@@ -3,7 +3,6 @@
 
 mod bag;
 mod balance;
-mod balloon;
 mod bridge;
 mod chain;
 mod cloth;
@@ -93,7 +92,6 @@ pub fn scenes() -> &'static [NamedScene] {
         knot::KNOT,
         garment::GARMENTS,
         flag::FLAG,
-        balloon::BALLOON,
         tear::TEAR,
         mesh_drop::MESH_DROP,
         scan::SCAN_DRAPE,
