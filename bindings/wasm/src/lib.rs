@@ -1,7 +1,7 @@
 //! The engine in WebAssembly. The package in `npm/` gives it its types, handles and views; nothing else calls it, so
 //! that what crosses the border is plain: numbers, flat arrays, and texts in JSON.
 //!
-//! A refusal is thrown as a text in JSON, see [`failure`]. No panic is meant to happen; if one does, or memory runs out,
+//! A refusal is thrown as a text in JSON, see `failure.rs`. No panic is meant to happen; if one does, or memory runs out,
 //! the instance traps and the package says that it can no longer be used.
 // What is public here is exported to JavaScript; the package's own types describe it to people.
 #![allow(missing_docs, unreachable_pub)]

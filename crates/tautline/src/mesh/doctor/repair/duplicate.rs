@@ -60,7 +60,7 @@ fn heaps(triangles: &[[u32; 3]]) -> (Vec<u32>, Vec<Vec<u32>>) {
 
 /// Whether as many face one way as the other.
 fn is_even(triangles: &[[u32; 3]], members: &[u32]) -> bool {
-    let is_ascending = |[a, b, c]: [u32; 3]| (a < b && b < c) || (b < c && c < a) || (c < a && a < b);
+    let is_ascending = |[a, b, c]: [u32; 3]| [a < b, b < c, c < a].into_iter().filter(|&is| is).count() == 2;
     2 * members.iter().filter(|&&triangle| is_ascending(triangles[triangle as usize])).count()
         == members.len()
 }
