@@ -188,7 +188,7 @@ fn duplicates_are_named_and_dropped() {
 /// A box of 2 m × 1 m × 1 m in two halves, with a wall between them that has both its faces: triangles 20 to 23.
 fn box_with_wall() -> TriMesh {
     let ring = |x: u32| {
-        (0..4).map(move |k: u32| Vec3::new(x as f32, (k % 3 > 0) as u8 as f32, (k > 1) as u8 as f32))
+        (0..4).map(move |k: u32| Vec3::new(x as f32, !k.is_multiple_of(3) as u8 as f32, (k > 1) as u8 as f32))
     };
     let mut triangles = Vec::new();
     let mut quad = |[a, b, c, d]: [u32; 4]| triangles.extend([[a, b, c], [a, c, d]]);

@@ -40,8 +40,11 @@ pub(super) fn parts(bytes: &[u8]) -> Result<Parts<'_>, Refusal> {
     Ok(Parts { json, binary })
 }
 
+/// What a chunk is, its bytes, and where the next one begins.
+type Chunk<'a> = ([u8; 4], &'a [u8], usize);
+
 /// The kind and the data of the chunk at a byte, and where the next begins; `None` at the end of the file.
-fn chunk(bytes: &[u8], start: usize) -> Result<Option<([u8; 4], &[u8], usize)>, Refusal> {
+fn chunk(bytes: &[u8], start: usize) -> Result<Option<Chunk<'_>>, Refusal> {
     if start == bytes.len() {
         return Ok(None);
     }
