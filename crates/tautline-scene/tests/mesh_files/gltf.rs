@@ -1,5 +1,6 @@
 //! glTF: what the program itself writes, nodes that turn and mirror, buffers in every place, and every refusal.
 
+use std::f64::consts::FRAC_1_SQRT_2;
 use std::fs;
 
 use serde_json::{Value, json};
@@ -117,7 +118,7 @@ fn nodes_turn_scale_and_mirror() {
     document["nodes"] = json!([
         { "children": [1, 2], "translation": [0, 5, 0], "scale": [2, 2, 2] },
         { "mesh": 0, "matrix": [-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 10, 0, 0, 1] },
-        { "mesh": 0, "rotation": [0, 0, 0.7071067811865476, 0.7071067811865476] },
+        { "mesh": 0, "rotation": [0, 0, FRAC_1_SQRT_2, FRAC_1_SQRT_2] },
     ]);
     let mesh = read("a.glb", glb(&document, &data()));
     assert_closed(&mesh);
