@@ -34,7 +34,7 @@ const MOST_POSITIONS: u64 = 10_000_000;
 /// let added = scene.add(Body::Rigid(Rigid { position: [3.0, 2.0, 0.0], ..Rigid::default() }))?;
 /// scene.step(scene.dt(), &mut || 0.0)?;
 /// scene.remove(added)?;
-/// assert!(scene.bodies().handle(added).is_err());
+/// assert!(scene.remove(added).is_err());
 /// scene.reset()?;
 /// assert_eq!(scene.world().time(), 0.0);
 /// # Ok::<(), tautline_scene::Error>(())
