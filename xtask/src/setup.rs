@@ -89,8 +89,5 @@ pub(crate) fn miri(project: &Project) -> Result<Outcome, String> {
         &["run", "nightly", "cargo", "miri", "test", "-p", "tautline", "--lib", "simd::"],
     )
     .env("RUSTFLAGS", "-C target-feature=+avx2"))?;
-    // What reads files of strangers has no unsafe code of its own, but stands on libraries that have.
-    let readers = ["run", "nightly", "cargo", "miri", "test", "-p", "tautline-scene", "--lib", "mesh_file::"];
-    run(&mut program(project, "rustup", &readers))?;
     Ok(Outcome::Passed)
 }

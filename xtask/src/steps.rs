@@ -31,11 +31,6 @@ pub(crate) const STEPS: &[Step] = &[
     Step { name: "clippy", about: "no warnings, in any target", check: clippy },
     Step { name: "docs", about: "no warnings", check: docs },
     Step { name: "tests", about: "all tests of the workspace", check: tests },
-    Step {
-        name: "meshes",
-        about: "meshes of public packages are examined and repaired",
-        check: meshes::meshes,
-    },
     Step { name: "hashes", about: "debug, release, 1 and 2 threads: the same bits", check: hashes::hashes },
     Step { name: "web", about: "the npm package: builds, is small, has the same bits", check: web::web },
     Step {
@@ -52,6 +47,13 @@ pub(crate) const STEPS: &[Step] = &[
     },
     Step { name: "miri", about: "tests of unsafe code, if there is any", check: setup::miri },
 ];
+
+/// By name only.
+pub(crate) const MORE: &[Step] = &[Step {
+    name: "meshes",
+    about: "meshes of public packages are examined and repaired",
+    check: meshes::meshes,
+}];
 
 fn format(project: &Project) -> Result<Outcome, String> {
     run_command(&mut cargo(project, &["fmt", "--all", "--check"]))?;
