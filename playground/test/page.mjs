@@ -66,9 +66,9 @@ export function placeOf(page) {
   });
 }
 
-/** The message that is shown, once there is one. */
-export async function notice(page) {
-  const element = page.locator(".notice").first();
+/** The message that is shown and says so, once there is one; older ones may still be there. */
+export async function notice(page, words = /./) {
+  const element = page.locator(".notice", { hasText: words }).last();
   await element.waitFor({ timeout: 20_000 });
   return element.innerText();
 }

@@ -54,6 +54,7 @@ export class Player {
     this.playing = false;
     this.time = frame;
     this.name();
+    this.tick(0);
   }
 
   private name(): void {

@@ -111,6 +111,8 @@ export class Stage {
     }
     this.camera.updateProjectionMatrix();
     this.controls.update();
+    // What is asked before the next picture is drawn is asked of where it is now.
+    this.camera.updateMatrixWorld();
     this.invalidate();
   }
 
@@ -143,6 +145,9 @@ export class Stage {
       (2 * (x - box.left - index * width)) / width - 1,
       1 - (2 * (y - box.top)) / box.height,
     );
+    // Drawing does this too, but a hand may be faster than the next picture.
+    this.camera.updateMatrixWorld();
+    view.scene.updateMatrixWorld();
     const raycaster = new THREE.Raycaster();
     raycaster.setFromCamera(point, this.camera);
     return { view, raycaster };
