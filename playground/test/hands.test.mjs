@@ -340,9 +340,12 @@ test("a finger grabs", async () => {
   await phone.context.close();
 });
 
-/** A finger takes hold of a box and leads it aside. */
+/** A finger takes hold of a ball and leads it aside: further than the ball is wide, for what is held at its surface swings
+ * about the finger. */
 async function dragByFinger({ page: phone, context }) {
-  const scene = { tautline: 1, settings: { gravity: [0, 0, 0] }, bodies: [BODIES.solid] };
+  const ball = { rigid: { shape: { sphere: { radius: 0.1 } }, position: [0, 1, 0] } };
+  const camera = { eye: [2, 3, 6], target: [0, 1, 0], fov: 40 };
+  const scene = { tautline: 1, settings: { gravity: [0, 0, 0] }, bodies: [ball], camera };
   await phone.evaluate((text) => window.playground.open({ kind: "text", text }, true), JSON.stringify(scene));
   const before = await placeOf(phone);
   const session = await context.newCDPSession(phone);
