@@ -1,9 +1,9 @@
 //! Which triangles of cloths pass through each other, and where ropes pierce them.
 
+use tautline::geometry::box_tree::{Bounds, BoxTree};
 use tautline::{DVec3, Vec3};
 
 use super::crossing::{passes_through, triangles_intersect};
-use super::tree::{Bounds, Tree};
 
 /// A triangulated surface as it lies now.
 #[derive(Debug, Clone, Copy)]
@@ -42,12 +42,16 @@ pub struct Pierce {
 pub fn intersections(sheets: &[Sheet<'_>]) -> Vec<[TriangleId; 2]> {
     let soup = Soup::of(sheets);
     let mut found = Vec::new();
-    soup.tree.pairs(&mut |a, b| {
-        let (a, b) = (&soup.triangles[a as usize], &soup.triangles[b as usize]);
-        if !a.shares_corner(b) && triangles_intersect(a.places(), b.places()) {
-            found.push([a.id.min(b.id), a.id.max(b.id)]);
-        }
-    });
+    for (a, bounds) in soup.triangles.iter().zip(&soup.boxes) {
+        soup.tree.overlapping(bounds, |b| {
+            let b = &soup.triangles[b as usize];
+            // Every pair once.
+            if b.id < a.id && !a.shares_corner(b) && triangles_intersect(a.places(), b.places()) {
+                found.push([b.id, a.id]);
+            }
+            true
+        });
+    }
     found.sort_unstable();
     found
 }
@@ -60,11 +64,12 @@ pub fn rope_pierces(rope: &[Vec3], sheets: &[Sheet<'_>]) -> Vec<Pierce> {
     for (segment, ends) in rope.windows(2).enumerate() {
         if ends.iter().all(|end| end.is_finite()) {
             let places = [ends[0].as_dvec3(), ends[1].as_dvec3()];
-            soup.tree.overlapping(&Bounds::around(ends), &mut |item| {
+            soup.tree.overlapping(&Bounds::around(places), |item| {
                 let triangle = &soup.triangles[item as usize];
                 if passes_through(places, triangle.places()) {
                     found.push(Pierce { segment, triangle: triangle.id });
                 }
+                true
             });
         }
     }
@@ -75,7 +80,8 @@ pub fn rope_pierces(rope: &[Vec3], sheets: &[Sheet<'_>]) -> Vec<Pierce> {
 /// All triangles of all sheets.
 struct Soup {
     triangles: Vec<Triangle>,
-    tree: Tree,
+    boxes: Vec<Bounds>,
+    tree: BoxTree,
 }
 
 struct Triangle {
@@ -97,8 +103,8 @@ impl Soup {
                 })
             })
             .collect();
-        let boxes: Vec<Bounds> = triangles.iter().map(|triangle| Bounds::around(&triangle.corners)).collect();
-        Self { tree: Tree::new(&boxes), triangles }
+        let boxes: Vec<Bounds> = triangles.iter().map(|triangle| Bounds::around(triangle.places())).collect();
+        Self { tree: BoxTree::new(&boxes), triangles, boxes }
     }
 }
 

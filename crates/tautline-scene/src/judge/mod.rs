@@ -22,7 +22,6 @@ mod crossing;
 mod depth;
 mod intersection;
 mod stretch;
-mod tree;
 
 pub use depth::Polytope;
 pub use intersection::{Pierce, Sheet, TriangleId, intersections, rope_pierces};

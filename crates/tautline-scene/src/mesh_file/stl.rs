@@ -65,30 +65,30 @@ fn read_text(text: &str, limits: &Limits) -> Result<Vec<Vec3>, Refusal> {
     let mut words = Words::new(text, 1);
     let mut corners = Vec::with_capacity((text.len() / LEAST_TEXT).min(limits.triangles) * 3);
     while words.peek().is_some() {
-        words.expect("solid")?;
+        words.keyword("solid")?;
         words.skip_line();
         while !words.peek().is_some_and(|word| word.eq_ignore_ascii_case("endsolid")) {
             corners.extend(read_facet(&mut words)?);
             limits.check_triangles(corners.len() / 3)?;
         }
-        words.expect("endsolid")?;
+        words.keyword("endsolid")?;
         words.skip_line();
     }
     Ok(corners)
 }
 
 fn read_facet(words: &mut Words) -> Result<[Vec3; 3], Refusal> {
-    words.expect("facet")?;
+    words.keyword("facet")?;
     // A normal may be anything, even NaN.
     words.skip_line();
-    words.expect("outer")?;
-    words.expect("loop")?;
+    words.keyword("outer")?;
+    words.keyword("loop")?;
     let mut corners = [Vec3::ZERO; 3];
     for corner in &mut corners {
-        words.expect("vertex")?;
+        words.keyword("vertex")?;
         *corner = Vec3::new(words.coordinate()?, words.coordinate()?, words.coordinate()?);
     }
-    words.expect("endloop")?;
-    words.expect("endfacet")?;
+    words.keyword("endloop")?;
+    words.keyword("endfacet")?;
     Ok(corners)
 }

@@ -40,7 +40,7 @@ impl<'a> Words<'a> {
         self.words = "".split_ascii_whitespace().peekable();
     }
 
-    pub(super) fn expect(&mut self, keyword: &str) -> Result<(), Refusal> {
+    pub(super) fn keyword(&mut self, keyword: &str) -> Result<(), Refusal> {
         match self.next() {
             Some(word) if word.eq_ignore_ascii_case(keyword) => Ok(()),
             found => Err(self.unexpected(found, &format!("`{keyword}`"))),

@@ -1,6 +1,7 @@
 //! Geometric queries on values: spheres and their trees, support mappings, GJK and EPA, features. Knows no
 //! world.
 
+pub mod box_tree;
 pub mod closest;
 pub mod distance;
 pub mod epa;

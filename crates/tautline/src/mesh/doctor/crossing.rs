@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::tree::{Bounds, Tree};
+use crate::geometry::box_tree::{Bounds, BoxTree};
 use crate::mesh::tetrahedra::predicates::faces_cross;
 
 /// Pairs that are named one by one; a soup has more than anybody reads.
@@ -28,7 +28,7 @@ pub(super) fn crossings(points: &[DVec3], triangles: &[[u32; 3]], included: &[bo
     let boxes: Vec<Bounds> = (0..items.len() as u32)
         .map(|item| Bounds::around(corners(item).map(|vertex| points[vertex as usize])))
         .collect();
-    let tree = Tree::new(&boxes);
+    let tree = BoxTree::new(&boxes);
     let mut pairs = Vec::new();
     let mut looks_left = items.len().saturating_mul(MOST_PAIRS);
     for (a, bounds) in (0..).zip(&boxes).filter(|&(a, _)| items[a as usize] >= from) {

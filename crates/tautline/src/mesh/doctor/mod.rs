@@ -18,7 +18,6 @@ mod orient;
 mod repair;
 mod report;
 mod surface;
-mod tree;
 
 pub use diagnose::diagnose;
 pub use repair::{Action, RepairOptions, Repaired, Why, repair};

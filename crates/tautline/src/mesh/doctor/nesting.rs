@@ -3,7 +3,7 @@
 use glam::DVec3;
 use robust::{Coord, orient2d};
 
-use super::tree::{Bounds, Tree};
+use crate::geometry::box_tree::{Bounds, BoxTree};
 use crate::mesh::tetrahedra::predicates::orient;
 
 /// For every point with the number of its own surface, how many other surfaces it lies inside of. `surface` is that of
@@ -22,7 +22,7 @@ pub(super) fn depths(
         .iter()
         .map(|&triangle| Bounds::around(triangles[triangle].map(|vertex| points[vertex as usize])))
         .collect();
-    let tree = Tree::new(&boxes);
+    let tree = BoxTree::new(&boxes);
     let depth = |&(vertex, own): &(u32, u32)| {
         let p = points[vertex as usize];
         let ray = Bounds { low: p, high: DVec3::new(f64::INFINITY, p.y, p.z) };

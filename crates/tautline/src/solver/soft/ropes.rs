@@ -15,7 +15,6 @@ pub(super) struct Rope {
 /// A rope whose heaviest knot weighs more than so many times the mean is solved once more for each of these: the threads'
 /// regularisation lets it give by what it carries.
 const SOLVED_AGAIN: [f32; 3] = [100.0, 250.0, 500.0];
-const MOST_SOLVES: u32 = 1 + SOLVED_AGAIN.len() as u32;
 /// By what share all sticks of a rope must be near their lengths for that.
 const NEAR: f32 = 0.05;
 
@@ -65,13 +64,9 @@ impl Bundle {
         self.read(points);
         self.pull(pivots);
         let solves = self.solves(points);
-        for done in 1..MOST_SOLVES {
-            for lane in (0..self.ropes.len()).filter(|&lane| solves[lane] == done) {
-                self.hold(lane);
-            }
-            if solves.iter().all(|&most| most <= done) {
-                break;
-            }
+        let most = solves.into_iter().fold(1, u32::max);
+        for done in 1..most {
+            (0..self.ropes.len()).filter(|&lane| solves[lane] == done).for_each(|lane| self.hold(lane));
             self.pull(pivots);
         }
         self.write(points);
@@ -96,8 +91,8 @@ impl Bundle {
         }
     }
 
-    /// How often each rope is to be solved. It follows from its masses alone, so that what hangs still is pulled alike from
-    /// small step to small step.
+    /// How often each rope is to be solved. That follows from masses and not from what is too long, so that what hangs still
+    /// is pulled alike from small step to small step.
     fn solves(&self, points: &Points) -> [u32; LANES] {
         let mut solves = [1; LANES];
         for (lane, (rope, solves)) in self.ropes.iter().zip(&mut solves).enumerate() {

@@ -1,16 +1,20 @@
-//! A tree over the boxes of triangles.
+//! A tree over boxes that stay where they are: which of them overlap. It does not mind how they lie, so that a thousand
+//! boxes in one plane, or with one x, take no longer than any others.
 
 use glam::DVec3;
 
-/// An axis-aligned box.
-#[derive(Clone, Copy)]
-pub(super) struct Bounds {
-    pub(super) low: DVec3,
-    pub(super) high: DVec3,
+/// An axis-aligned box; its faces belong to it. In `f64`, so that it is exact around positions in `f32`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounds {
+    /// The corner with the smallest coordinates.
+    pub low: DVec3,
+    /// The one with the greatest.
+    pub high: DVec3,
 }
 
 impl Bounds {
-    pub(super) fn around(points: impl IntoIterator<Item = DVec3>) -> Self {
+    /// The smallest around some points; around none one that overlaps nothing.
+    pub fn around(points: impl IntoIterator<Item = DVec3>) -> Self {
         let nothing = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
         points.into_iter().fold(nothing, |all, p| Self { low: all.low.min(p), high: all.high.max(p) })
     }
@@ -25,13 +29,15 @@ impl Bounds {
 }
 
 /// A binary tree with one box to a leaf, in the order of a walk: a node's first child stands right after it.
-pub(super) struct Tree {
+#[derive(Debug, Clone)]
+pub struct BoxTree {
     nodes: Vec<Node>,
 }
 
+#[derive(Debug, Clone)]
 struct Node {
     bounds: Bounds,
-    /// The item of a leaf.
+    /// The box of a leaf.
     item: u32,
     /// Where the walk goes on after all that hangs on this node.
     after: u32,
@@ -39,14 +45,12 @@ struct Node {
 
 const NO_ITEM: u32 = u32::MAX;
 
-impl Tree {
-    /// Halves the boxes along the axis that they spread most on, and the halves again.
-    pub(super) fn new(boxes: &[Bounds]) -> Self {
+impl BoxTree {
+    /// Halves the boxes along the axis that they spread most on, and the halves again; O(n log n).
+    pub fn new(boxes: &[Bounds]) -> Self {
         let mut tree = Self { nodes: Vec::with_capacity(2 * boxes.len()) };
         let mut items: Vec<u32> = (0..boxes.len() as u32).collect();
-        if !items.is_empty() {
-            tree.grow(boxes, &mut items);
-        }
+        tree.grow(boxes, &mut items);
         tree
     }
 
@@ -69,8 +73,9 @@ impl Tree {
         self.nodes[node].after = self.nodes.len() as u32;
     }
 
-    /// Every item whose box overlaps this one, until `visit` says that it is enough.
-    pub(super) fn overlapping(&self, bounds: &Bounds, mut visit: impl FnMut(u32) -> bool) {
+    /// The number of every box that overlaps this one, in no order to rely on, until `visit` says that it is enough by
+    /// `false`.
+    pub fn overlapping(&self, bounds: &Bounds, mut visit: impl FnMut(u32) -> bool) {
         let mut next = 0;
         while let Some(node) = self.nodes.get(next) {
             let overlaps = node.bounds.overlaps(bounds);
@@ -86,30 +91,49 @@ impl Tree {
 mod tests {
     use super::*;
 
-    #[test]
-    fn what_overlaps_is_found_once() {
+    fn boxes(count: usize, flatten: DVec3) -> Vec<Bounds> {
         let mut state = 1_u32;
         let mut random = || {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             f64::from(state >> 16) / 65536.0
         };
-        let mut point = || DVec3::new(random(), random(), random());
-        let boxes: Vec<Bounds> = (0..300)
+        let mut point = || DVec3::new(random(), random(), random()) * flatten;
+        (0..count)
             .map(|_| {
                 let corner = point();
                 Bounds::around([corner, corner + 0.2 * point()])
             })
-            .collect();
-        let tree = Tree::new(&boxes);
-        for bounds in &boxes {
-            let mut found = Vec::new();
-            tree.overlapping(bounds, |item| {
-                found.push(item);
-                true
-            });
-            found.sort_unstable();
-            let expected: Vec<u32> = (0..300).filter(|&i| boxes[i as usize].overlaps(bounds)).collect();
-            assert_eq!(found, expected);
+            .collect()
+    }
+
+    #[test]
+    fn what_overlaps_is_found_once() {
+        let cases = [(0, DVec3::ONE), (1, DVec3::ONE), (2, DVec3::ZERO), (300, DVec3::ONE), (300, DVec3::X)];
+        for (count, flatten) in cases {
+            let boxes = boxes(count, flatten);
+            let tree = BoxTree::new(&boxes);
+            for bounds in &boxes {
+                let mut found = Vec::new();
+                tree.overlapping(bounds, |item| {
+                    found.push(item);
+                    true
+                });
+                found.sort_unstable();
+                let all = 0..count as u32;
+                let expected: Vec<u32> = all.filter(|&i| boxes[i as usize].overlaps(bounds)).collect();
+                assert_eq!(found, expected, "{count} boxes, {flatten}");
+            }
         }
+    }
+
+    #[test]
+    fn enough_is_enough() {
+        let boxes = boxes(2, DVec3::ZERO);
+        let mut visits = 0;
+        BoxTree::new(&boxes).overlapping(&boxes[0], |_| {
+            visits += 1;
+            false
+        });
+        assert_eq!(visits, 1);
     }
 }
