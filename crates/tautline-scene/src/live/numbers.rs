@@ -27,10 +27,11 @@ impl<H> Default for Numbers<H> {
 }
 
 impl<H: Numbered> Numbers<H> {
-    /// The handle of a number.
+    /// The handle of a number. That of what has been removed stays known, since a snapshot may bring it back: the world
+    /// refuses it until then.
     ///
     /// # Errors
-    /// [`Error::StaleHandle`] for a number that is none, or no more.
+    /// [`Error::StaleHandle`] for a number that was never given, or only before all was built anew.
     pub fn handle(&self, number: u32) -> Result<H, Error> {
         self.handles.get(number as usize).copied().flatten().ok_or(Error::StaleHandle)
     }
