@@ -7,6 +7,8 @@ import { type Plugin, defineConfig } from "vite";
 /** Where the engine's exporter has it from; a test has it made elsewhere, and compares. */
 const TEMPLATE = process.env.REPLAY ?? fileURLToPath(new URL("../crates/tautline-scene/src/export/html/replay.html", import.meta.url));
 
+const CHARSET = '<meta charset="utf-8" />';
+
 /** Puts scripts and styles into the page, and allows these and no others. */
 function inline(): Plugin {
   return {
@@ -24,7 +26,7 @@ function inline(): Plugin {
       const html = String(page.source)
         .replace(/\s*<(script|link)\b[^>]*(src|href)=[^>]*>(<\/script>)?/g, "")
         .replace("</title>", () => `</title>\n    <style>${style}</style>\n    <script type="module">${code}</script>`)
-        .replace('<meta charset="utf-8" />', `<meta charset="utf-8" />\n    <meta http-equiv="Content-Security-Policy" content="${allowed}" />`);
+        .replace(CHARSET, `${CHARSET}\n    <meta http-equiv="Content-Security-Policy" content="${allowed}" />`);
       for (const name of Object.keys(bundle)) delete bundle[name];
       writeFileSync(TEMPLATE, html);
     },

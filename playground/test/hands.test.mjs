@@ -47,6 +47,7 @@ test("the page can be used within two seconds", async () => {
   assert.ok(Math.min(...seconds) <= 2, `${seconds} s`);
 });
 
+const CAMERA = { eye: [2, 3, 6], target: [0, 1, 0], fov: 40 };
 const BODIES = {
   solid: { rigid: { position: [0, 1, 0] } },
   sheet: { cloth: { surface: { grid: { columns: 9, rows: 9, width: 1, depth: 1 } }, position: [0, 1, 0] } },
@@ -55,7 +56,7 @@ const BODIES = {
 
 for (const [look, body] of Object.entries(BODIES)) {
   test(`a drag moves a ${look} that is grabbed`, async () => {
-    const scene = { tautline: 1, settings: { gravity: [0, 0, 0] }, bodies: [{ half_space: {} }, body], camera: { eye: [2, 3, 6], target: [0, 1, 0], fov: 40 } };
+    const scene = { tautline: 1, settings: { gravity: [0, 0, 0] }, bodies: [{ half_space: {} }, body], camera: CAMERA };
     await page.evaluate(async (text) => {
       window.playground.setPlaying(false);
       await window.playground.open({ kind: "text", text }, true);
@@ -344,8 +345,7 @@ test("a finger grabs", async () => {
  * about the finger. */
 async function dragByFinger({ page: phone, context }) {
   const ball = { rigid: { shape: { sphere: { radius: 0.1 } }, position: [0, 1, 0] } };
-  const camera = { eye: [2, 3, 6], target: [0, 1, 0], fov: 40 };
-  const scene = { tautline: 1, settings: { gravity: [0, 0, 0] }, bodies: [ball], camera };
+  const scene = { tautline: 1, settings: { gravity: [0, 0, 0] }, bodies: [ball], camera: CAMERA };
   await phone.evaluate((text) => window.playground.open({ kind: "text", text }, true), JSON.stringify(scene));
   const before = await placeOf(phone);
   const session = await context.newCDPSession(phone);

@@ -72,7 +72,8 @@ test("markup stays text", async () => {
 test("endless parameters and values out of range are refused", async () => {
   const values = Object.fromEntries(Array.from({ length: 100_000 }, (_, k) => [`p${k}`, k]));
   for (const wrong of [values, { n: 1e7 }, { n: -1 }, { n: 2.5 }]) {
-    const opened = await page.evaluate((values) => window.playground.open({ kind: "named", name: "tower", values, settings: {} }, true), wrong);
+    const open = (values) => window.playground.open({ kind: "named", name: "tower", values, settings: {} }, true);
+    const opened = await page.evaluate(open, wrong);
     assert.equal(opened, false);
     await notice(page);
   }
@@ -85,7 +86,13 @@ test("files that are too large or no meshes are refused", async () => {
       data.items.add(new File([make === "large" ? new Uint8Array(100 << 20) : make], name));
       window.dispatchEvent(new DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true }));
     }, [name, make]);
-  const cases = [["large.stl", "large", /64 MB/], ["large.json", "large", /4 MB/], ["bad.obj", "f 1 2 99999999", /./], ["bad.glb", "glTF", /./], ["x.exe", "MZ", /ending/]];
+  const cases = [
+    ["large.stl", "large", /64 MB/],
+    ["large.json", "large", /4 MB/],
+    ["bad.obj", "f 1 2 99999999", /./],
+    ["bad.glb", "glTF", /./],
+    ["x.exe", "MZ", /ending/],
+  ];
   for (const [name, content, words] of cases) {
     await page.evaluate(() => document.querySelector(".notices").replaceChildren());
     await drop(name, content);

@@ -30,14 +30,23 @@ export function completeFrom(schema: Schema): (context: CompletionContext) => Co
     const to = isWhole ? node.to : pos;
     if (!context.explicit && from === pos) return null;
     if (isName) return names(schema, state, ancestor(node, "Object"), { from, to }, node);
-    if (property && !["Object", "Array"].includes(node.name)) return words(schema, [...pathOf(state, property), nameOf(state, property)], { from, to });
+    if (property && !["Object", "Array"].includes(node.name)) {
+      return words(schema, [...pathOf(state, property), nameOf(state, property)], { from, to });
+    }
     return null;
   };
 }
 
-function names(schema: Schema, state: EditorState, object: SyntaxNode | undefined, range: Range, node: SyntaxNode): CompletionResult | null {
+function names(
+  schema: Schema,
+  state: EditorState,
+  object: SyntaxNode | undefined,
+  range: Range,
+  node: SyntaxNode,
+): CompletionResult | null {
   if (!object) return null;
-  const known = new Set(object.getChildren("Property").filter((child) => child.from !== node.parent?.from).map((child) => nameOf(state, child)));
+  const others = object.getChildren("Property").filter((child) => child.from !== node.parent?.from);
+  const known = new Set(others.map((child) => nameOf(state, child)));
   const hasColon = node.name === "PropertyName" && node.parent?.getChild(":") != null;
   const options = namesAt(schema, pathOf(state, object))
     .filter(({ name }) => !known.has(name))

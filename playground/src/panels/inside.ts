@@ -6,7 +6,11 @@ import { el, fill } from "../ui/dom";
 
 const CHOICES: readonly { kind: QueryKind | "none"; label: string; line: string }[] = [
   { kind: "none", label: "Nothing", line: "Only the scene." },
-  { kind: "spheres", label: "Sphere trees", line: "Spheres around triangles, spheres around those: what does not touch is ruled out early." },
+  {
+    kind: "spheres",
+    label: "Sphere trees",
+    line: "Spheres around triangles, spheres around those: what does not touch is ruled out early.",
+  },
   { kind: "boxes", label: "Boxes", line: "Bodies whose boxes overlap may touch; all other pairs are never looked at." },
   { kind: "gjk", label: "GJK", line: "Two convex bodies touch if their difference holds the origin; a simplex in it walks there." },
   { kind: "contacts", label: "Contacts", line: "Where bodies touch: a point on each, the normal, and the faces and edges that meet." },
@@ -111,7 +115,13 @@ function detailsOf(playground: Playground, inspection: Inspection, iteration: It
     case "colors":
       return [note(inspection.count > 0 ? `${inspection.count} colours` : "No colours here: all is solved one after another.")];
     case "order":
-      return [note(inspection.body === undefined ? "Only trusses have such lists: choose the paper's solver." : "Click another body to see its list.")];
+      return [
+        note(
+          inspection.body === undefined
+            ? "Only trusses have such lists: choose the paper's solver."
+            : "Click another body to see its list.",
+        ),
+      ];
     case "strain":
       return [note(`mean ${percent(inspection.mean)}, greatest ${percent(inspection.max)}`)];
   }

@@ -9,8 +9,15 @@ import { toggleTheme } from "./theme";
 
 export function actions(playground: Playground): HTMLElement {
   const button = (name: Icon, label: string, title: string, action: () => unknown) =>
-    el("button", { type: "button", title, onclick: () => void action(), attributes: { "aria-label": title } }, icon(name), el("span", {}, label));
-  const compare = button("split", "Compare", "Default and paper's solver side by side", () => playground.setComparing(!playground.comparing));
+    el(
+      "button",
+      { type: "button", title, onclick: () => void action(), attributes: { "aria-label": title } },
+      icon(name),
+      el("span", {}, label),
+    );
+  const compare = button("split", "Compare", "Default and paper's solver side by side", () =>
+    playground.setComparing(!playground.comparing),
+  );
   const record = button("download", "GLB", "Record the motion, then save it as GLB", () => exportGlb(playground));
   const label = record.querySelector("span");
   playground.on("state", () => {

@@ -49,7 +49,8 @@ test("documents of millions of bodies, and ones without end", () => {
   const sheet = cloth({ surface: { grid: { columns: 1e6, rows: 1e6, width: 1, depth: 1 } } });
   const { problems } = refused(() => new World({ tautline: 1, bodies: [sheet] }), "invalid", "bodies[0].cloth.surface.grid.columns");
   assert.match(problems.at(-1).message, /1000000000000 particles, more than/);
-  refused(() => new World({ tautline: 1, bodies: [cloth({ surface: { grid: { columns: 1e300, rows: 2, width: 1, depth: 1 } } })] }), "parse", "bodies[0].cloth.surface.grid.columns");
+  const endless = cloth({ surface: { grid: { columns: 1e300, rows: 2, width: 1, depth: 1 } } });
+  refused(() => new World({ tautline: 1, bodies: [endless] }), "parse", "bodies[0].cloth.surface.grid.columns");
   refused(() => tautline.document("icosahedra", { n: 1e7 }), "invalid", "parameters.n");
   refused(() => tautline.document("icosahedra", { endless: 1 }), "invalid", "parameters.endless");
   refused(() => tautline.document("<img onerror=alert(1)>"), "invalid", "");
@@ -86,7 +87,9 @@ test("what is wrong is shown at its line", () => {
     ["bodies[0].rigid.mass", 5, 26],
     ["bodies[1].cloth.friction", 6, 41],
   ]);
-  assert.deepEqual(tautline.validate("{\n]"), [{ path: "", message: problems.length ? tautline.validate("{\n]")[0].message : "", line: 2, column: 1 }]);
+  const [{ message, ...place }, ...others] = tautline.validate("{\n]");
+  assert.deepEqual([place, others], [{ path: "", line: 2, column: 1 }, []]);
+  assert.ok(message.length > 10, message);
   assert.deepEqual(tautline.validate(JSON.stringify(tautline.document("net"))), []);
 });
 
