@@ -152,11 +152,17 @@ impl Scene {
 fn goes_through(before: &Scene, now: &Scene, kind: Wall) -> bool {
     let way = (0..=WAY_POINTS).map(|i| before.toward(now, f64::from(i) / f64::from(WAY_POINTS)));
     let way: Vec<DVec3> = way.map(|scene| scene.seen_from(kind)).collect();
-    way.windows(2).any(|ends| {
-        let [from, to] = [ends[0], ends[1]];
-        let crossing = from.lerp(to, from.x / (from.x - to.x));
-        from.x < 0.0 && to.x >= 0.0 && crossing.y.abs().max(crossing.z.abs()) < f64::from(HALF) - 1e-3
-    })
+    way.windows(2).any(|ends| crosses(ends[0], ends[1]))
+}
+
+/// Whether the straight way from a place to another, both in the wall's frame, goes to its back within its outline.
+fn crosses(from: DVec3, to: DVec3) -> bool {
+    from.x < 0.0 && to.x >= 0.0 && is_within(from.lerp(to, from.x / (from.x - to.x)))
+}
+
+/// Whether a place in the wall's frame is in front of it or behind it, not beside it.
+fn is_within(place: DVec3) -> bool {
+    place.y.abs().max(place.z.abs()) < f64::from(HALF) - 1e-3
 }
 
 /// A bullet in front of a wall.
@@ -227,15 +233,15 @@ fn way(shot: &Shot) -> Way {
     if before.seen_from(shot.wall).x < 0.0 { Way::Stopped } else { Way::Round }
 }
 
-/// Whether one step of the usual substeps takes a shot from before the wall to behind its middle.
+/// Whether one step of the usual substeps takes a shot from before the wall to behind its middle. Who strikes the edge
+/// in that step and goes round it ends behind the wall too: the way between has to lead through the wall.
 fn leaps(shot: &Shot) -> bool {
     let (mut world, bullet, wall) = shot.world(weightless());
-    let mut before = -1.0;
+    let mut before = Scene::of(&world, bullet, wall).seen_from(shot.wall);
     (0..20).any(|_| {
         assert!(world.step(DT).unwrap().faults.is_empty());
         let now = Scene::of(&world, bullet, wall).seen_from(shot.wall);
-        let is_within = now.y.abs().max(now.z.abs()) < f64::from(HALF) - 1e-3;
-        std::mem::replace(&mut before, now.x) < 0.0 && now.x >= 0.0 && is_within
+        crosses(std::mem::replace(&mut before, now), now) && is_within(now)
     })
 }
 
@@ -247,6 +253,24 @@ proptest! {
         let way = way(&shot);
         prop_assert!(way != Way::Through && (way == Way::Round || !leaps(&shot)));
     }
+}
+
+/// It strikes the field's edge, is bent forward half a millimetre outside of the outline, and is behind the wall's middle
+/// at the end of the same step.
+#[test]
+fn a_spinning_wire_goes_round_the_edge_of_a_height_field() {
+    let shot = Shot {
+        bullet: Bullet::Rod(0.0005, 0.292_222_95),
+        wall: Wall::HeightField(0.3),
+        speed: 275.2697,
+        turn: Vec3::new(-0.605_846, 1.203_475, 1.336_141),
+        spin: Vec3::new(46.820_892, 224.0893, -217.230_06),
+        aim: Vec3::new(0.0, -0.790_871_86, 0.925_901),
+        slant: Vec3::new(0.0, 3.229_005_8, 0.0),
+        phase: 0.773_532_75,
+    };
+    assert_ne!(way(&shot), Way::Through);
+    assert!(!leaps(&shot));
 }
 
 #[test]
