@@ -10,10 +10,11 @@ pub(crate) fn is_worthwhile(count: usize, least: usize) -> bool {
     count >= least && threads > 1
 }
 
-/// Calls `work` on every item, side by side if `worthwhile`: waking threads costs some ten microseconds.
+/// Calls `work` on every item, side by side if `worthwhile` and there are several: waking threads costs some ten
+/// microseconds.
 pub(crate) fn for_each<T: Send>(items: &mut [T], worthwhile: bool, work: impl Fn(&mut T) + Send + Sync) {
     #[cfg(feature = "parallel")]
-    if worthwhile && rayon::current_num_threads() > 1 {
+    if worthwhile && items.len() > 1 && rayon::current_num_threads() > 1 {
         use rayon::prelude::*;
         items.par_iter_mut().for_each(&work);
         return;
