@@ -34,6 +34,11 @@ pub(crate) const STEPS: &[Step] = &[
     Step { name: "hashes", about: "debug, release, 1 and 2 threads: the same bits", check: hashes::hashes },
     Step { name: "web", about: "the npm package: builds, is small, has the same bits", check: web::web },
     Step { name: "page", about: "the playground builds, and its types hold", check: page::page },
+    Step {
+        name: "browser",
+        about: "the playground in Chromium: every scene, hands, hostile input",
+        check: page::browser,
+    },
     Step { name: "examples", about: "each runs and what it asserts holds", check: readme::examples },
     Step { name: "readme", about: "its commands, its scene and its program", check: readme::readme },
     Step {
@@ -44,19 +49,12 @@ pub(crate) const STEPS: &[Step] = &[
     Step { name: "miri", about: "tests of unsafe code, if there is any", check: setup::miri },
 ];
 
-/// By name only: what a busy machine or a registry that is away may break.
-pub(crate) const MORE: &[Step] = &[
-    Step {
-        name: "meshes",
-        about: "meshes of public packages are examined and repaired",
-        check: meshes::meshes,
-    },
-    Step {
-        name: "browser",
-        about: "the playground in Chromium: every scene, hands, hostile input",
-        check: page::browser,
-    },
-];
+/// By name only: it fetches a hundred megabytes of packages for their meshes.
+pub(crate) const MORE: &[Step] = &[Step {
+    name: "meshes",
+    about: "meshes of public packages are examined and repaired",
+    check: meshes::meshes,
+}];
 
 fn format(project: &Project) -> Result<Outcome, String> {
     run_command(&mut cargo(project, &["fmt", "--all", "--check"]))?;
