@@ -94,6 +94,26 @@ impl World {
         Ok(())
     }
 
+    /// Sets the velocity of a particle, in m/s. Nothing happens to a pinned one.
+    ///
+    /// # Errors
+    /// [`Error::StaleHandle`]; [`Error::OutOfRange`] if a coordinate or `particle` is; [`Error::Invalid`] if the body is
+    /// rigid.
+    pub fn set_particle_velocity(
+        &mut self,
+        handle: BodyHandle,
+        particle: u32,
+        velocity: Vec3,
+    ) -> Result<(), Error> {
+        coordinates("velocity", velocity)?;
+        let (index, i) = self.particle(handle, particle)?;
+        if self.particles.inverse_mass[i] > 0.0 {
+            self.particles.displacement[i] = velocity * self.bodies[index].displacement_time();
+            self.wake_body(index);
+        }
+        Ok(())
+    }
+
     /// Sets the mass of one particle, in kg.
     ///
     /// # Errors

@@ -108,3 +108,25 @@ fn all_particles_are_put_somewhere_as_one_by_one() {
     assert!(world.set_particle_positions(cloth, &places[1..]).is_err());
     assert_eq!(world.state_hash(), before);
 }
+
+/// What is set is what is read, before the first step and in the midst of motion; the others keep theirs.
+#[test]
+fn a_particle_is_given_a_velocity() {
+    let mut world = World::new(weightless()).unwrap();
+    let rope = world.add(Rope::straight(Vec3::ZERO, Vec3::X, 10).pin(0)).unwrap();
+    let velocities = |world: &World| -> Vec<Vec3> {
+        let rope = world.body(rope).unwrap();
+        (0..11).map(|i| rope.particle_velocity(i)).collect()
+    };
+    for _ in 0..2 {
+        let before = velocities(&world);
+        let velocity = Vec3::new(0.5, -2.0, 0.25);
+        world.set_particle_velocity(rope, 10, velocity).unwrap();
+        world.set_particle_velocity(rope, 0, velocity).unwrap();
+        let after = velocities(&world);
+        assert!(after[10].distance(velocity) < 1e-6, "{}", after[10]);
+        assert_eq!(after[..10], before[..10]);
+        run(&mut world, 0.1);
+        assert!(velocities(&world)[9].length() > 0.05, "it takes its neighbour along");
+    }
+}

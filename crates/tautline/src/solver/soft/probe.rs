@@ -159,13 +159,32 @@ fn refine<L: Lanes>(points: Vec3x8<L>, convex: &Convex, lanes: u32, probe: Probe
     Probe { distance: L::load(&distances), normal: Vec3x8::load(&normals) }
 }
 
-/// Of the nearest of some triangles, from either side of it; far away if there are none.
+/// A triangle and the box around it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Facet {
+    corners: [Vec3; 3],
+    low: Vec3,
+    high: Vec3,
+}
+
+impl Facet {
+    pub(super) fn new(corners: [Vec3; 3]) -> Self {
+        let [a, b, c] = corners;
+        Self { corners, low: a.min(b).min(c), high: a.max(b).max(c) }
+    }
+}
+
+/// Of the nearest of some triangles, from either side of it. Beyond `reach` (m) a distance may be more than it is: most
+/// triangles are passed over, for they are farther than that from all eight points.
 #[inline(always)]
-pub(super) fn probe_triangles<L: Lanes>(points: Vec3x8<L>, triangles: &[[Vec3; 3]]) -> Probe<L> {
+pub(super) fn probe_triangles<L: Lanes>(points: Vec3x8<L>, facets: &[Facet], reach: f32) -> Probe<L> {
     let mut least = L::splat(f32::MAX);
     let mut nearest = Vec3x8::<L>::splat(Vec3::Y);
-    for corners in triangles {
-        let from = from_triangle(points, corners);
+    // With room for rounding.
+    let reach = Vec3::splat(1.25 * reach);
+    let (low, high) = (-largest(-points) - reach, largest(points) + reach);
+    for facet in facets.iter().filter(|facet| !(facet.low.cmpgt(high) | facet.high.cmplt(low)).any()) {
+        let from = from_triangle(points, &facet.corners);
         let squared = from.length_squared();
         let is_nearer = least.greater(squared);
         least = is_nearer.select(squared, least);
@@ -173,6 +192,11 @@ pub(super) fn probe_triangles<L: Lanes>(points: Vec3x8<L>, triangles: &[[Vec3; 3
     }
     let found = around(nearest);
     Probe { distance: least.greater(L::splat(1e30)).select(least, found.distance), normal: found.normal }
+}
+
+#[inline(always)]
+fn largest<L: Lanes>(points: Vec3x8<L>) -> Vec3 {
+    Vec3::new(points.x.largest(), points.y.largest(), points.z.largest())
 }
 
 /// From the nearest point of a triangle to eight points.

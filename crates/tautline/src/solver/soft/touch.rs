@@ -7,7 +7,7 @@
 use glam::{Mat3, Vec3};
 
 use super::points::Points;
-use super::probe::{Form, Probe, probe_triangles};
+use super::probe::{Facet, Form, Probe, probe_triangles};
 use super::solid::{Matter, Solid, Stance, part_bounds};
 use super::tile::{Bounds, Tile};
 use crate::shape::Surface;
@@ -80,8 +80,8 @@ pub(super) fn find<L: Lanes>(
             let mut triangles = Triangles::default();
             for (tile, bounds) in tiles.iter().zip(boxes) {
                 triangles.near(surface, stance, &bounds.grown(reach));
-                if !triangles.corners.is_empty() {
-                    finder.tile::<L>(tile, Target::Triangles(&triangles.corners), 0.0, out);
+                if !triangles.facets.is_empty() {
+                    finder.tile::<L>(tile, Target::Triangles(&triangles.facets), 0.0, out);
                 }
             }
         }
@@ -92,7 +92,7 @@ pub(super) fn find<L: Lanes>(
 #[derive(Default)]
 struct Triangles {
     numbers: Vec<u32>,
-    corners: Vec<[Vec3; 3]>,
+    facets: Vec<Facet>,
 }
 
 impl Triangles {
@@ -102,8 +102,9 @@ impl Triangles {
         let extent = axes.x_axis.abs() * half.x + axes.y_axis.abs() * half.y + axes.z_axis.abs() * half.z;
         let center = stance.to_local(middle);
         surface.triangles_in(center - extent, center + extent, &mut self.numbers);
-        self.corners.clear();
-        self.corners.extend(self.numbers.iter().map(|&number| surface.triangle(number).corners));
+        self.facets.clear();
+        let corners = self.numbers.iter().map(|&number| surface.triangle(number).corners);
+        self.facets.extend(corners.map(Facet::new));
     }
 }
 
@@ -112,7 +113,7 @@ impl Triangles {
 enum Target<'a> {
     HalfSpace(Vec3, f32),
     Form(&'a Form<'a>),
-    Triangles(&'a [[Vec3; 3]]),
+    Triangles(&'a [Facet]),
 }
 
 struct Finder<'a> {
@@ -142,7 +143,7 @@ impl Finder<'_> {
                 Probe { distance: at.dot(normal) - L::splat(offset), normal }
             }
             Target::Form(form) => self.turned(form.probe(self.local(from_center), reach + radius)),
-            Target::Triangles(triangles) => self.turned(probe_triangles(self.local(from_center), triangles)),
+            Target::Triangles(facets) => self.turned(probe_triangles(self.local(from_center), facets, reach)),
         };
         let distance = probe.distance - L::splat(radius);
         let is_near = L::splat(reach).greater(distance).and(self.points.are_there::<L>(place as usize));

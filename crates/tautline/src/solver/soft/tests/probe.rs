@@ -19,14 +19,14 @@ impl Kernel for Ask<'_> {
     }
 }
 
-struct AskTriangles<'a>(&'a [[Vec3; 3]], &'a [Vec3; LANES]);
+struct AskTriangles<'a>(&'a [Facet], &'a [Vec3; LANES], f32);
 
 impl Kernel for AskTriangles<'_> {
     type Output = [(f32, Vec3); LANES];
 
     #[inline(always)]
     fn run<L: Lanes>(self) -> Self::Output {
-        answers(probe_triangles::<L>(lanes_of(self.1), self.0))
+        answers(probe_triangles::<L>(lanes_of(self.1), self.0, self.2))
     }
 }
 
@@ -119,17 +119,23 @@ proptest! {
     fn the_nearest_triangle_is_found(
         triangles in prop::collection::vec(prop::array::uniform3(vector(1.0)), 1..6),
         points in eight_points(),
+        reach in prop_oneof![Just(9.0_f32), 0.0_f32..0.5],
     ) {
         // What has no area to speak of has no normal.
         let area = |[a, b, c]: &[Vec3; 3]| (*b - *a).cross(*c - *a).length();
         prop_assume!(triangles.iter().all(|corners| area(corners) > 0.02));
-        let found = on_all(|| AskTriangles(&triangles, &points));
+        let facets: Vec<Facet> = triangles.iter().copied().map(Facet::new).collect();
+        let found = on_all(|| AskTriangles(&facets, &points, reach));
         for (point, (distance, normal)) in points.into_iter().zip(found) {
             let least = |at: DVec3| {
                 let distance = |&corners: &[Vec3; 3]| closest_to_triangle(at, corners).distance;
                 triangles.iter().map(distance).fold(f64::INFINITY, f64::min)
             };
             let expected = least(point.as_dvec3());
+            if expected > f64::from(reach) {
+                prop_assert!(f64::from(distance) > expected - TOLERANCE, "{distance}, not {expected}");
+                continue;
+            }
             prop_assert!((f64::from(distance) - expected).abs() < TOLERANCE, "{distance}, not {expected}");
             let on_it = point.as_dvec3() - normal.as_dvec3() * f64::from(distance);
             prop_assert!(least(on_it) < TOLERANCE, "{normal} leads {} m off", least(on_it));
@@ -149,6 +155,6 @@ fn parts_are_told_by_what_they_are() {
     let frustum: Vec<Vec3> =
         slanted.into_iter().chain([Vec3::new(0.0, 1.0, 1.0), Vec3::new(1.2, 1.0, 1.5)]).collect();
     assert!(form(Shape::convex_hull(&frustum).unwrap()).starts_with("Polytope"));
-    let far = AskTriangles(&[], &[Vec3::ZERO; LANES]);
+    let far = AskTriangles(&[], &[Vec3::ZERO; LANES], 9.0);
     assert!(crate::simd::run(crate::simd::Instructions::Baseline, far)[0].0 > 1e30);
 }
