@@ -21,7 +21,7 @@ class Plot(Figure):
 
 
 def plot(recording: "Recording") -> Figure:
-    """Energy, contacts and the largest strain over time, one below the other."""
+    """Energy, contacts of rigid bodies and the largest strain over time, one below the other."""
     series = recording.series
     time = series["time"]
     figure = Plot(figsize=(7, 6.5), layout="constrained")
@@ -33,8 +33,8 @@ def plot(recording: "Recording") -> Figure:
     energy.set_ylabel("energy in J")
     energy.legend(frameon=False, ncols=3)
     contacts.plot(time, series["contacts"], color="C4")
-    contacts.set_ylabel("contacts")
-    contacts.set_ylim(bottom=0)
+    contacts.set_ylabel("rigid contacts")
+    contacts.set_ylim(bottom=0, top=max(1, 1.05 * series["contacts"].max()))
     strain.plot(time, 100 * series["max_strain"], color="C3")
     strain.set_ylabel("largest strain in %")
     strain.set_ylim(bottom=0)

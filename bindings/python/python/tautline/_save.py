@@ -39,18 +39,18 @@ def save(
 
         write_usd(recording, path)
         return
-    recording._write(path, size=size, frame=frame, frame_rate=frame_rate, ffmpeg=_ffmpeg(path))
+    ffmpeg = _ffmpeg() if path.suffix.lower() == ".mp4" else None
+    recording._write(path, size=size, frame=frame, frame_rate=frame_rate, ffmpeg=ffmpeg)
 
 
-def _ffmpeg(path: Path) -> Optional[str]:
+def _ffmpeg() -> str:
     """The program for films: the system's, or the one that the package ``imageio-ffmpeg`` brings."""
-    if path.suffix.lower() != ".mp4":
-        return None
     found = shutil.which("ffmpeg")
     if found is None:
         try:
             import imageio_ffmpeg
-        except ImportError:
-            return None
+        except ImportError as missing:
+            message = 'films are written by ffmpeg: install it, or pip install "tautline[film]"'
+            raise ImportError(message) from missing
         found = str(imageio_ffmpeg.get_ffmpeg_exe())
     return found
