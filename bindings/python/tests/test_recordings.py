@@ -170,13 +170,22 @@ def test_a_film_has_every_frame(recording: tl.Recording, tmp_path: Path) -> None
     assert np.abs(frames[0].astype(float) - frames[15]).mean() > 3, "and something moves"
 
 
-def test_a_film_without_ffmpeg_says_what_brings_it(
+def test_what_is_not_installed_is_said_with_what_brings_it(
     recording: tl.Recording, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("PATH", "")
-    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
-    with pytest.raises(ImportError, match=r'pip install "tautline\[film\]"'):
-        recording.save(tmp_path / "a.mp4")
+    for module in ("imageio_ffmpeg", "pxr", "matplotlib.figure", "tqdm.auto", "tautline._plot"):
+        monkeypatch.setitem(sys.modules, module, None)
+    monkeypatch.delitem(sys.modules, "tautline._plot")
+    world = tl.World()
+    for extra, use in {
+        "film": lambda: recording.save(tmp_path / "a.mp4"),
+        "usd": lambda: recording.save(tmp_path / "a.usdc"),
+        "plot": recording.plot,
+        "progress": lambda: world.run(0.1, progress=True),
+    }.items():
+        with pytest.raises(ImportError, match=rf'pip install "tautline\[{extra}\]"'):
+            use()
     assert not list(tmp_path.iterdir())
 
 

@@ -5,7 +5,12 @@ from __future__ import annotations
 import io
 from typing import TYPE_CHECKING
 
-from matplotlib.figure import Figure
+from ._errors import missing
+
+try:
+    from matplotlib.figure import Figure
+except ImportError as absent:
+    raise missing("figures are drawn by matplotlib", "plot") from absent
 
 if TYPE_CHECKING:
     from ._engine import Recording

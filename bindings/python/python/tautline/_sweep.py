@@ -19,6 +19,7 @@ from ._engine import Recording, Scene, World, __version__
 from ._errors import InvalidValueError
 from ._local import LocalProcesses
 from ._progress import Progress, reporter
+from ._save import FORMATS
 
 Metric = Callable[[World, Recording], object]
 Make = Callable[..., Union[Scene, World]]
@@ -35,7 +36,7 @@ _METRICS: Dict[str, Metric] = {
 _DEFAULT = ("state_hash", "kinetic_energy", "max_strain", "max_penetration")
 _RETRIES = 3
 # Formats of one file each.
-_SAVED = (".npz", ".glb", ".usdc", ".usda", ".usd", ".html", ".png", ".gif", ".mp4")
+_SAVED = tuple(extension for extension in FORMATS if extension not in (".obj", ".pc2", ".ply"))
 
 
 @dataclass(frozen=True)
