@@ -11,7 +11,8 @@ const PACKAGE: &str = "bindings/python";
 const OLDEST: (u32, u32) = (3, 9);
 
 /// Installs the package with its test extras, and runs its tests, mypy and stubtest. Nothing outside the target folder is
-/// touched, and what is compiled goes where the workspace's own release build is: the engine is not compiled again.
+/// touched, and what is compiled goes where the workspace's own release build is: the engine is not compiled again, since
+/// the command line asks for the features of `syn` that PyO3 asks for.
 pub(crate) fn python(project: &Project) -> Result<Outcome, String> {
     let environment = match environment(project) {
         Ok(environment) => environment,
@@ -42,7 +43,8 @@ impl Environment {
     }
 
     fn pip(&self, project: &Project, arguments: &[&str]) -> std::process::Command {
-        let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
+        // Most of what is installed is never imported: it is compiled when it is.
+        let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-compile"];
         let mut command = self.python(project, &install);
         command.args(arguments);
         command

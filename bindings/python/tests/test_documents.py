@@ -70,8 +70,23 @@ def test_the_package_writes_a_picture(tmp_path: Path) -> None:
     with image.open(tmp_path / "icosahedra.png") as picture:
         assert picture.size == (640, 480)
         assert len(picture.getcolors(1 << 20)) > 1000, "there is something to see"
-    refused = subprocess.run([sys.executable, "-m", "tautline", "no-scene"], capture_output=True, text=True)
-    assert refused.returncode == 1 and "there is no scene named" in refused.stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "problem"),
+    [
+        (["no-scene"], "there is no scene named"),
+        (["tower", "--out", "a.bla"], "must be one of .gif"),
+        (["tower", "--set", "n=two"], "--set n=two: expected NAME=NUMBER"),
+        (["tower", "--set", "m=2"], 'no parameter named "m"'),
+        (["a.json", "--set", "n=2"], "a file has none"),
+        (["a.json"], "a.json"),
+    ],
+)
+def test_the_package_refuses_in_one_line(arguments: List[str], problem: str, tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "tautline", *arguments]
+    refused = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    assert refused.returncode == 1 and problem in refused.stderr and len(refused.stderr.splitlines()) == 1
 
 
 def test_the_modules_own_example() -> None:

@@ -77,6 +77,10 @@ fn a_point_cache_has_the_layout_that_blender_reads_and_its_mesh_beside_it() {
     }
     let text = fs::read_to_string(mesh_path(&path)).unwrap();
     assert_eq!(text.lines().filter(|line| line.starts_with("v ")).count(), count);
+    assert!(
+        !text.contains("\no ") && !text.starts_with("o "),
+        "one object, of as many vertices as the cache"
+    );
 }
 
 #[test]

@@ -50,7 +50,8 @@ from ._errors import (
     TautlineError,
 )
 from ._mesh import from_trimesh, line, recording_to_trimesh, to_trimesh
-from ._sweep import RayExecutor, sweep
+from ._ray import RayExecutor
+from ._sweep import sweep
 from ._validate import validate
 
 __all__ = [

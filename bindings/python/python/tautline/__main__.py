@@ -5,9 +5,10 @@ from __future__ import annotations
 import argparse
 import sys
 from pathlib import Path
-from typing import List, Optional
+from typing import List, Optional, Tuple
 
-from . import Scene, TautlineError, __version__, scenes
+from . import InvalidValueError, Scene, TautlineError, __version__, scenes
+from ._save import check
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
@@ -22,10 +23,11 @@ def main(arguments: Optional[List[str]] = None) -> int:
     try:
         scene = _find(options.scene, options.set)
         out: Path = options.out or Path(f"{scene.name}.png")
+        check(out)
         recording = scene.run(options.seconds, progress=_percent if sys.stderr.isatty() else None)
         out.parent.mkdir(parents=True, exist_ok=True)
         recording.save(out)
-    except (TautlineError, OSError) as error:
+    except (TautlineError, ImportError, OSError) as error:
         print(error, file=sys.stderr)
         return 1
     milliseconds = 1000 * recording.engine_seconds / recording.steps
@@ -36,16 +38,18 @@ def main(arguments: Optional[List[str]] = None) -> int:
 
 def _find(scene: str, assignments: List[str]) -> Scene:
     if Path(scene).suffix in (".json", ".json5", ".toml"):
+        if assignments:
+            raise InvalidValueError("--set: parameters are those of named scenes, and a file has none", "set")
         return Scene.load(scene)
-    pairs = [assignment.partition("=") for assignment in assignments]
-    return Scene.named(scene, **{name: _number(value) for name, _, value in pairs})
+    return Scene.named(scene, **dict(_parameter(assignment) for assignment in assignments))
 
 
-def _number(text: str) -> float:
+def _parameter(assignment: str) -> Tuple[str, float]:
+    name, _, value = assignment.partition("=")
     try:
-        return float(text)
+        return name, float(value)
     except ValueError:
-        return float("nan")
+        raise InvalidValueError(f"--set {assignment}: expected NAME=NUMBER", "set") from None
 
 
 def _percent(done: int, total: int) -> None:

@@ -45,3 +45,8 @@ class SnapshotError(TautlineError, ValueError):
 
 class StaleHandleError(TautlineError, LookupError):
     """A body, joint, attachment or grab that has been removed."""
+
+
+def missing(what: str, extra: str) -> ImportError:
+    """That a package is not installed, and which extra of this one brings it."""
+    return ImportError(f'{what}: pip install "tautline[{extra}]"')

@@ -5,7 +5,12 @@ from __future__ import annotations
 import io
 from typing import TYPE_CHECKING
 
-from matplotlib.figure import Figure
+from ._errors import missing
+
+try:
+    from matplotlib.figure import Figure
+except ImportError as absent:
+    raise missing("figures are drawn by matplotlib", "plot") from absent
 
 if TYPE_CHECKING:
     from ._engine import Recording
@@ -21,7 +26,7 @@ class Plot(Figure):
 
 
 def plot(recording: "Recording") -> Figure:
-    """Energy, contacts and the largest strain over time, one below the other."""
+    """Energy, contacts of rigid bodies and the largest strain over time, one below the other."""
     series = recording.series
     time = series["time"]
     figure = Plot(figsize=(7, 6.5), layout="constrained")
@@ -33,8 +38,8 @@ def plot(recording: "Recording") -> Figure:
     energy.set_ylabel("energy in J")
     energy.legend(frameon=False, ncols=3)
     contacts.plot(time, series["contacts"], color="C4")
-    contacts.set_ylabel("contacts")
-    contacts.set_ylim(bottom=0)
+    contacts.set_ylabel("rigid contacts")
+    contacts.set_ylim(bottom=0, top=max(1, 1.05 * series["contacts"].max()))
     strain.plot(time, 100 * series["max_strain"], color="C3")
     strain.set_ylabel("largest strain in %")
     strain.set_ylim(bottom=0)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Callable, Optional, Union
 
+from ._errors import missing
+
 Reporter = Callable[[int, int], object]
 Progress = Union[bool, Reporter, None]
 
@@ -20,8 +22,10 @@ class _Bar:
         self._done = 0
 
     def __call__(self, done: int, total: int) -> None:
-        from tqdm.auto import tqdm
-
+        try:
+            from tqdm.auto import tqdm
+        except ImportError as absent:
+            raise missing("bars are drawn by tqdm", "progress") from absent
         if self._bar is None:
             self._bar = tqdm(total=total)
         bar: tqdm = self._bar

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import os
 import shutil
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Optional, Tuple, Union
+
+from ._errors import InvalidValueError, missing
 
 if TYPE_CHECKING:
     from ._engine import Recording
 
 _USD = (".usd", ".usda", ".usdc")
+FORMATS = (".gif", ".glb", ".html", ".mp4", ".npz", ".obj", ".pc2", ".ply", ".png", *_USD)
 
 
 def save(
@@ -34,23 +38,35 @@ def save(
         frame_rate: The most pictures a second in a ``.gif``, 1 to 50.
     """
     path = Path(path)
+    check(path)
     if path.suffix.lower() in _USD:
         from ._usd import write_usd
 
         write_usd(recording, path)
         return
-    recording._write(path, size=size, frame=frame, frame_rate=frame_rate, ffmpeg=_ffmpeg(path))
+    ffmpeg = _ffmpeg() if path.suffix.lower() == ".mp4" else None
+    recording._write(path, size=size, frame=frame, frame_rate=frame_rate, ffmpeg=ffmpeg)
 
 
-def _ffmpeg(path: Path) -> Optional[str]:
+def check(path: Path) -> None:
+    """That there is a format of this extension, and what writes it: before hours of work that could not be saved."""
+    extension = path.suffix.lower()
+    if extension not in FORMATS:
+        problem = f"no known format; the extension must be one of {', '.join(FORMATS)}"
+        raise InvalidValueError(f"{path}: {problem}", "path")
+    if extension in _USD and find_spec("pxr") is None:
+        raise missing('USD is written by the package "usd-core", which is not installed', "usd")
+    if extension == ".mp4":
+        _ffmpeg()
+
+
+def _ffmpeg() -> str:
     """The program for films: the system's, or the one that the package ``imageio-ffmpeg`` brings."""
-    if path.suffix.lower() != ".mp4":
-        return None
     found = shutil.which("ffmpeg")
     if found is None:
         try:
             import imageio_ffmpeg
-        except ImportError:
-            return None
+        except ImportError as absent:
+            raise missing("films are written by ffmpeg, which is not installed", "film") from absent
         found = str(imageio_ffmpeg.get_ffmpeg_exe())
     return found

@@ -9,15 +9,17 @@ import math
 import os
 import re
 import tempfile
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
 
 from ._documents import dumps
-from ._engine import Recording, Scene, World, set_threads
+from ._engine import Recording, Scene, World, __version__
 from ._errors import InvalidValueError
+from ._local import LocalProcesses
 from ._progress import Progress, reporter
+from ._save import FORMATS
 
 Metric = Callable[[World, Recording], object]
 Make = Callable[..., Union[Scene, World]]
@@ -33,6 +35,8 @@ _METRICS: Dict[str, Metric] = {
 }
 _DEFAULT = ("state_hash", "kinetic_energy", "max_strain", "max_penetration")
 _RETRIES = 3
+# Formats of one file each.
+_SAVED = tuple(extension for extension in FORMATS if extension not in (".obj", ".pc2", ".ply"))
 
 
 @dataclass(frozen=True)
@@ -46,10 +50,11 @@ class _Job:
     save: Optional[str]
 
     def key(self) -> str:
-        """The same for the same run, in any process: what its file is called. Functions are told apart by their names."""
+        """The same for the same run, in any process: what its file is called. Functions are told apart by their names, and
+        another version of the engine may give other bits."""
         scene = self.scene if isinstance(self.scene, str) else _name(self.scene)
         metrics = {name: metric if isinstance(metric, str) else _name(metric) for name, metric in self.metrics.items()}
-        told = [scene, self.parameters, self.seconds, metrics, self.save]
+        told = [__version__, scene, self.parameters, self.seconds, metrics, self.save]
         return hashlib.sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()[:16]
 
 
@@ -124,7 +129,8 @@ def sweep(
             ``RayExecutor``; ``"serial"``, in this process; absent, one process for each core, which takes functions of
             modules only.
         folder: Where each run leaves a file. Runs that have one are not run again: call again to go on.
-        save: Also keep each run's recording there, in the format of this extension, such as ``".npz"``.
+        save: Also keep each run's recording there, in the format of this extension, such as ``".npz"``; of formats that are
+            one file each.
         repeats: Run each combination so many times, with the parameter ``seed`` from 1 on.
         progress: True for a bar, or a function of (runs done, runs).
 
@@ -134,6 +140,11 @@ def sweep(
         again up to three times; one that failed is reported, leaves no file, and is tried again at the next call.
     """
     jobs = [_job(scene, row, seconds, metrics, save) for row in _rows(params, repeats)]
+    if not (executor is None or executor == "serial" or isinstance(executor, Executor)):
+        problem = f'expected a concurrent.futures.Executor, "serial" or None, not {executor!r}'
+        raise InvalidValueError(f"executor: {problem}", "executor")
+    if save is not None and save not in _SAVED:
+        raise InvalidValueError(f"save: {save!r} is none of {', '.join(_SAVED)}", "save")
     if save is not None and folder is None:
         raise InvalidValueError("folder: recordings need one to be saved in", "folder")
     store = _Store(None if folder is None else Path(folder), save)
@@ -153,6 +164,9 @@ def sweep(
 
 def _rows(params: Any, repeats: Optional[int]) -> List[Row]:
     if isinstance(params, Mapping):
+        for name, values in params.items():
+            if isinstance(values, (str, bytes)) or not hasattr(values, "__iter__"):
+                raise InvalidValueError(f"params: {name}: expected a list of values, not {values!r}", f"params.{name}")
         names = list(params)
         rows = [dict(zip(names, values)) for values in itertools.product(*params.values())]
     else:
@@ -215,62 +229,48 @@ def _run_all(
     executor: Union[Executor, str, None],
     finish: Callable[[int, Row, Optional[bytes]], None],
 ) -> None:
-    if executor == "serial":
+    if isinstance(executor, str):
         for i, job in jobs:
             finish(i, *_outcome(lambda: _run(job)))
-        return
-    if executor is not None:
-        assert isinstance(executor, Executor)
-        for i, _ in _gather(jobs, executor, finish, dict.fromkeys((i for i, _ in jobs), 0)):
-            finish(i, {"error": "the executor is broken: call again with a new one"}, None)
-        return
-    # Processes of our own: where one dies, all others of the pool are lost with it, and a new pool takes over.
-    tries = dict.fromkeys((i for i, _ in jobs), 0)
-    while jobs:
-        with _local_pool(len(jobs)) as pool:
-            jobs = _gather(jobs, pool, finish, tries)
-
-
-def _local_pool(jobs: int) -> ProcessPoolExecutor:
-    import multiprocessing
-
-    cores = os.cpu_count() or 1
-    # Not forked: a child would have none of the threads of this process. One thread each: there are many of them.
-    context = multiprocessing.get_context("spawn")
-    return ProcessPoolExecutor(min(cores, jobs), context, initializer=set_threads, initargs=(1,))
+    elif executor is not None:
+        _gather(jobs, executor, finish)
+    elif jobs:
+        with LocalProcesses(min(os.cpu_count() or 1, len(jobs))) as processes:
+            _gather(jobs, processes, finish)
 
 
 def _gather(
-    jobs: List[Tuple[int, _Job]],
-    executor: Executor,
-    finish: Callable[[int, Row, Optional[bytes]], None],
-    tries: Dict[int, int],
-) -> List[Tuple[int, _Job]]:
-    """Finishes jobs as they end; those of a lost worker are given to the executor again, or returned where it is broken."""
+    jobs: List[Tuple[int, _Job]], executor: Executor, finish: Callable[[int, Row, Optional[bytes]], None]
+) -> None:
+    """Finishes jobs as they end; those of a lost worker are given to the executor again."""
     pending: Dict["Future[Tuple[Row, Optional[bytes]]]", Tuple[int, _Job]] = {}
-    lost: List[Tuple[int, _Job]] = []
+    tries = dict.fromkeys((i for i, _ in jobs), 0)
 
     def submit(i: int, job: _Job) -> None:
         try:
             pending[executor.submit(_run, job)] = (i, job)
         except BrokenExecutor:
-            lost.append((i, job))
+            finish(i, {"error": "the executor is broken: call again with a new one"}, None)
 
     for i, job in jobs:
         submit(i, job)
-    while pending:
-        ended, _ = wait(pending, return_when=FIRST_COMPLETED)
-        for future in ended:
-            i, job = pending.pop(future)
-            error = future.exception()
-            if error is None or not _is_lost(error):
-                finish(i, *_outcome(future.result))
-            elif tries[i] >= _RETRIES:
-                finish(i, {"error": f"its worker was lost {_RETRIES + 1} times: {error}"}, None)
-            else:
-                tries[i] += 1
-                submit(i, job)
-    return lost
+    try:
+        while pending:
+            ended, _ = wait(pending, return_when=FIRST_COMPLETED)
+            for future in ended:
+                i, job = pending.pop(future)
+                error = future.exception()
+                if error is None or not _is_lost(error):
+                    finish(i, *_outcome(future.result))
+                elif tries[i] >= _RETRIES:
+                    finish(i, {"error": f"its worker was lost {_RETRIES + 1} times: {error}"}, None)
+                else:
+                    tries[i] += 1
+                    submit(i, job)
+    finally:
+        # Whoever interrupts a sweep does not wait for the rest of it.
+        for future in pending:
+            future.cancel()
 
 
 def _is_lost(error: BaseException) -> bool:
@@ -298,21 +298,3 @@ def _table(rows: List[Row]) -> Any:
     except ImportError:
         return rows
     return pandas.DataFrame(rows)
-
-
-class RayExecutor(Executor):
-    """Ray as an executor, for ``sweep``. ``ray.init()`` decides where runs are done.
-
-    Args:
-        retries: How often Ray itself tries a run again whose worker was lost.
-    """
-
-    def __init__(self, retries: int = 3) -> None:
-        self._retries = retries
-
-    def submit(self, function: Callable[..., Any], /, *args: Any, **keywords: Any) -> "Future[Any]":
-        import ray
-
-        remote = ray.remote(max_retries=self._retries)(function)
-        future: "Future[Any]" = remote.remote(*args, **keywords).future()
-        return future

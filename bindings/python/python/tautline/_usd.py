@@ -18,11 +18,7 @@ def write_usd(recording: "Recording", path: Path) -> None:
 
     What is rigid is a mesh whose transform moves, what deforms a mesh whose points do. A mesh is named after its track.
     """
-    try:
-        from pxr import Gf, Sdf, Usd, UsdGeom, Vt
-    except ImportError as missing:
-        message = 'USD is written by the package "usd-core": pip install "tautline[usd]"'
-        raise ImportError(message) from missing
+    from pxr import Gf, Sdf, Usd, UsdGeom, Vt
 
     stage = Usd.Stage.CreateInMemory()
     UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.y)

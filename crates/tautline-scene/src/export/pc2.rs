@@ -1,7 +1,7 @@
 //! A recording as a point cache, PC2: what Blender's modifier *Mesh Cache* reads.
 //!
-//! The file holds positions only. The mesh that they move is written beside it, as `.obj` of the same name: it is
-//! imported with its vertices in order, and given the modifier.
+//! The file holds positions only. The mesh that they move is written beside it, as `.obj` of the same name: one object with
+//! its vertices in order, which is imported and given the modifier.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -53,7 +53,7 @@ pub fn write_pc2(
         }
         Ok(())
     })?;
-    write_obj_frame(&ObjFrame::new(recording, 0), &mesh_path(path))
+    write_obj_frame(&ObjFrame::in_one(recording, 0), &mesh_path(path))
 }
 
 /// The file beside a point cache that holds the mesh.

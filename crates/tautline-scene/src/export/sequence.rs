@@ -66,18 +66,25 @@ fn write_frames(
 pub(super) struct ObjFrame<'a> {
     recording: &'a Recording,
     positions: Vec<Vec3>,
+    /// What a track is: an object, or a group of faces of the one object.
+    part: char,
 }
 
 impl<'a> ObjFrame<'a> {
     pub(super) fn new(recording: &'a Recording, frame: usize) -> Self {
-        Self { recording, positions: positions_at(recording, frame) }
+        Self { recording, positions: positions_at(recording, frame), part: 'o' }
+    }
+
+    /// As one object: importers make as many meshes as there are objects.
+    pub(super) fn in_one(recording: &'a Recording, frame: usize) -> Self {
+        Self { part: 'g', ..Self::new(recording, frame) }
     }
 
     fn write(&self, out: &mut impl Write) -> io::Result<()> {
         for (track, first) in first_vertices(self.recording) {
             // A line break in a name would begin another statement.
             let name: String = track.name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-            writeln!(out, "o {name}")?;
+            writeln!(out, "{} {name}", self.part)?;
             let end = first + track.mesh.positions.len();
             // The shortest decimals that read back as the same numbers.
             for Vec3 { x, y, z } in &self.positions[first..end] {
