@@ -1,4 +1,9 @@
-//! What the targets share.
+//! What the targets do. The ordinary tests do the same with the seeds: they take these files as modules of their own.
+
+pub mod distance;
+pub mod repair;
+pub mod scene;
+pub mod world;
 
 use tautline_scene::mesh_file::{Format, Limits, parse};
 

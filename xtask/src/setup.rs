@@ -81,13 +81,12 @@ pub(crate) fn miri(project: &Project) -> Result<Outcome, String> {
     let toolchain =
         ["toolchain", "install", "nightly", "--profile", "minimal", "--component", "miri,rust-src"];
     run(&mut program(project, "rustup", &toolchain))?;
-    // Through rustup: the Cargo that runs this program is of the stable toolchain. Only the tests of the folder that
-    // has unsafe code, since Miri is slow, and with the instructions that it is about.
-    run(program(
-        project,
-        "rustup",
-        &["run", "nightly", "cargo", "miri", "test", "-p", "tautline", "--lib", "simd::"],
-    )
-    .env("RUSTFLAGS", "-C target-feature=+avx2"))?;
+    // Of the engine only the tests of the folder that has unsafe code, since Miri is slow.
+    for (package, tests) in [("tautline", "simd::"), ("tautline-scene", "mesh_file::")] {
+        // Through rustup: the Cargo that runs this program is of the stable toolchain.
+        let test = ["run", "nightly", "cargo", "miri", "test", "--locked", "-p", package, "--lib", tests];
+        // The unsafe code is about these instructions.
+        run(program(project, "rustup", &test).env("RUSTFLAGS", "-C target-feature=+avx2"))?;
+    }
     Ok(Outcome::Passed)
 }
