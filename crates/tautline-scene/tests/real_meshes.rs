@@ -136,20 +136,10 @@ fn comes_to_rest(mesh: &TriMesh, add: fn(&mut World, &TriMesh) -> Result<BodyHan
     };
     let made = worked() - start;
     let mut moved = 0.0;
-    for k in 0..1200 {
+    for _ in 0..1200 {
         world.step(1.0 / 60.0).unwrap();
         if speed(&world) > QUIET {
             moved = world.time();
-        }
-        if std::env::var_os("TRACE").is_some() && k % 60 == 0 {
-            let b = world.body(body).unwrap();
-            println!(
-                "    {k} {:.4} w {:.3} y {:.5} E {:.4}",
-                speed(&world),
-                b.angular_velocity(),
-                b.center_of_mass().y,
-                world.kinetic_energy() + world.potential_energy()
-            );
         }
     }
     let seen = world.body(body).unwrap();
