@@ -1,5 +1,6 @@
 #![no_main]
 
-use libfuzzer_sys::fuzz_target;
+#[path = "../src/distance.rs"]
+mod distance;
 
-fuzz_target!(|bytes: &[u8]| tautline_fuzz::distance::run(bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| distance::run(bytes));

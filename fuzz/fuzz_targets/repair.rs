@@ -1,5 +1,6 @@
 #![no_main]
 
-use libfuzzer_sys::fuzz_target;
+#[path = "../src/repair.rs"]
+mod repair;
 
-fuzz_target!(|bytes: &[u8]| tautline_fuzz::repair::run(bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| repair::run(bytes));

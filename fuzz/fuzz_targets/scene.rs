@@ -1,5 +1,6 @@
 #![no_main]
 
-use libfuzzer_sys::fuzz_target;
+#[path = "../src/scene.rs"]
+mod scene;
 
-fuzz_target!(|bytes: &[u8]| tautline_fuzz::scene::run(bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| scene::run(bytes));

@@ -1,5 +1,6 @@
 #![no_main]
 
-use libfuzzer_sys::fuzz_target;
+#[path = "../src/world.rs"]
+mod world;
 
-fuzz_target!(|bytes: &[u8]| tautline_fuzz::world::run(bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| world::run(bytes));

@@ -5,7 +5,7 @@ use tautline::geometry::distance::{Distance, distance};
 
 /// The first byte says how many points A has and what kind of numbers follow: whole ones on a small lattice, which touch and
 /// coincide, or any bits that a number can have.
-pub fn run(bytes: &[u8]) {
+pub(crate) fn run(bytes: &[u8]) {
     let Some((&head, rest)) = bytes.split_first() else { return };
     let points = if head & 1 == 0 { lattice(rest) } else { wild(rest) };
     let (a, b) = points.split_at((usize::from(head) >> 1).min(points.len()));

@@ -1,9 +1,5 @@
-//! What the targets do. The ordinary tests do the same with the seeds: they take these files as modules of their own.
-
-pub mod distance;
-pub mod repair;
-pub mod scene;
-pub mod world;
+//! What the targets of mesh files share. Those of the files beside it are modules of their targets, and of the ordinary
+//! tests, which run them on the seeds.
 
 use tautline_scene::mesh_file::{Format, Limits, parse};
 

@@ -6,7 +6,7 @@ use tautline::mesh::{HalfEdgeMesh, TriMesh};
 
 /// The first byte is the number of vertices. Three bytes are a place: on a coarse grid, so that vertices coincide and lie
 /// on lines and planes, or one of some numbers that are hard. Each byte after them is a corner.
-pub fn run(bytes: &[u8]) {
+pub(crate) fn run(bytes: &[u8]) {
     let Some((&count, rest)) = bytes.split_first() else { return };
     let (places, corners) = rest.split_at((usize::from(count) * 3).min(rest.len()));
     let positions =

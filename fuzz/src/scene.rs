@@ -3,7 +3,7 @@
 use tautline_scene::document::{Format, parse};
 
 /// The first byte says which format the rest is in.
-pub fn run(bytes: &[u8]) {
+pub(crate) fn run(bytes: &[u8]) {
     let Some((&format, text)) = bytes.split_first() else { return };
     let Ok(text) = std::str::from_utf8(text) else { return };
     let format = [Format::Json, Format::Json5, Format::Toml][usize::from(format) % 3];

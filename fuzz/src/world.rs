@@ -14,7 +14,7 @@ const MOST_STEPS: u32 = 8;
 const SUBSTEPS: u32 = 2;
 
 /// Calls of every kind with numbers of every kind. What is refused leaves no trace, and nothing ever panics or is not finite.
-pub fn run(bytes: &[u8]) {
+pub(crate) fn run(bytes: &[u8]) {
     let mut calls = Calls {
         bytes,
         world: World::new(Settings { substeps: SUBSTEPS, ..Settings::default() }).expect("sound settings"),

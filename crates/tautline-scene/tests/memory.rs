@@ -3,7 +3,7 @@
 #![cfg(target_os = "linux")]
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
@@ -41,80 +41,52 @@ fn large_faces() -> Vec<u8> {
     ply(40, 100_000, &body)
 }
 
-/// Reads a file and says what came of it.
-type Read = fn(&[u8]) -> String;
-/// What it is, how it is read, and its bytes.
-type Case = (&'static str, Read, fn() -> Vec<u8>);
+/// What it is, its extension, and its bytes.
+type Case = (&'static str, &'static str, fn() -> Vec<u8>);
 
 const SIZE: usize = 8 << 20;
 
 const CASES: [Case; 17] = [
-    ("vertices", |bytes| mesh(bytes, Format::Obj), || (lines("v 0 0 0\n") + "f 1 2 3").into()),
-    ("triangles", |bytes| mesh(bytes, Format::Obj), || ("v 0 0 0\n".to_owned() + &lines("f 1 1 1\n")).into()),
-    ("one face", |bytes| mesh(bytes, Format::Obj), || ("v 0 0 0\nf".to_owned() + &lines(" 1")).into()),
-    ("bytes that are no text", |bytes| mesh(bytes, Format::Obj), || [vec![b'#'], vec![0xff; SIZE]].concat()),
-    (
-        "facets",
-        |bytes| mesh(bytes, Format::Stl),
-        || {
-            let mut bytes = vec![0; 84 + SIZE / 50 * 50];
-            bytes[80..84].copy_from_slice(&(SIZE as u32 / 50).to_le_bytes());
-            bytes
-        },
-    ),
-    (
-        "facets as text",
-        |bytes| mesh(bytes, Format::Stl),
-        || {
-            let facet =
-                "facet outer loop\n outer loop vertex 0 0 0 vertex 0 0 0 vertex 0 0 0 endloop endfacet\n";
-            ("solid\n".to_owned() + &lines(facet) + "endsolid").into()
-        },
-    ),
-    (
-        "triangles of bytes",
-        |bytes| mesh(bytes, Format::Ply),
-        || {
-            let count = SIZE / 4;
-            ply(1, count, &[&[0; 3], &b"\x03\0\0\0".repeat(count)[..]].concat())
-        },
-    ),
-    ("large faces", |bytes| mesh(bytes, Format::Ply), large_faces),
-    (
-        "empty nodes",
-        |bytes| mesh(bytes, Format::Gltf),
-        || format!("{{\"asset\":{{\"version\":\"2.0\"}},\"nodes\":[{}{{}}]}}", lines("{},")).into(),
-    ),
-    ("bodies", json, || list("bodies", "{\"rope\":{}},")),
-    ("cues", json, || list("cues", "{},")),
-    ("vertices of a scene", json, || vertices("[0,0,0],")),
-    ("brackets", json, || vec![b'['; SIZE]),
-    ("bodies in JSON5", json5, || list("bodies", "{rope:{}},")),
-    ("vertices in JSON5", json5, || vertices("[0,0,0],")),
-    ("tables in TOML", toml, || ("tautline=1\n".to_owned() + &lines("[[bodies]]\n")).into()),
-    ("numbers in TOML", toml, || format!("tautline=1\nbodies=[{}]", lines("0,")).into()),
+    ("vertices", "obj", || (lines("v 0 0 0\n") + "f 1 2 3").into()),
+    ("triangles", "obj", || ("v 0 0 0\n".to_owned() + &lines("f 1 1 1\n")).into()),
+    ("one face", "obj", || ("v 0 0 0\nf".to_owned() + &lines(" 1")).into()),
+    ("bytes that are no text", "obj", || [vec![b'#'], vec![0xff; SIZE]].concat()),
+    ("facets", "stl", || {
+        let mut bytes = vec![0; 84 + SIZE / 50 * 50];
+        bytes[80..84].copy_from_slice(&(SIZE as u32 / 50).to_le_bytes());
+        bytes
+    }),
+    ("facets as text", "stl", || {
+        let facet = "facet outer loop\n outer loop vertex 0 0 0 vertex 0 0 0 vertex 0 0 0 endloop endfacet\n";
+        ("solid\n".to_owned() + &lines(facet) + "endsolid").into()
+    }),
+    ("triangles of bytes", "ply", || {
+        let count = SIZE / 4;
+        ply(1, count, &[&[0; 3], &b"\x03\0\0\0".repeat(count)[..]].concat())
+    }),
+    ("large faces", "ply", large_faces),
+    ("empty nodes", "gltf", || {
+        format!("{{\"asset\":{{\"version\":\"2.0\"}},\"nodes\":[{}{{}}]}}", lines("{},")).into()
+    }),
+    ("bodies", "json", || list("bodies", "{\"rope\":{}},")),
+    ("cues", "json", || list("cues", "{},")),
+    ("vertices of a scene", "json", || vertices("[0,0,0],")),
+    ("brackets", "json", || vec![b'['; SIZE]),
+    ("bodies in JSON5", "json5", || list("bodies", "{rope:{}},")),
+    ("vertices in JSON5", "json5", || vertices("[0,0,0],")),
+    ("tables in TOML", "toml", || ("tautline=1\n".to_owned() + &lines("[[bodies]]\n")).into()),
+    ("numbers in TOML", "toml", || format!("tautline=1\nbodies=[{}]", lines("0,")).into()),
 ];
 
-fn mesh(bytes: &[u8], format: Format) -> String {
-    let outcome = mesh_file::parse(bytes, format, &Limits::default());
-    format!("{:?}", outcome.map(|file| file.mesh.triangles.len()))
-}
-
-fn scene(bytes: &[u8], format: document::Format) -> String {
+/// Reads a file as its extension says, and says what came of it.
+fn read(bytes: &[u8], path: &Path) -> String {
+    if let Some(format) = Format::of(path) {
+        let outcome = mesh_file::parse(bytes, format, &Limits::default());
+        return format!("{:?}", outcome.map(|file| file.mesh.triangles.len()));
+    }
+    let format = document::Format::of_path(path).unwrap();
     let outcome = document::parse(std::str::from_utf8(bytes).unwrap(), format);
     outcome.map_or_else(|error| error.to_string(), |scene| format!("{} bodies", scene.bodies.len()))
-}
-
-fn json(bytes: &[u8]) -> String {
-    scene(bytes, document::Format::Json)
-}
-
-fn json5(bytes: &[u8]) -> String {
-    scene(bytes, document::Format::Json5)
-}
-
-fn toml(bytes: &[u8]) -> String {
-    scene(bytes, document::Format::Toml)
 }
 
 /// A scene whose list has many of an item.
@@ -134,28 +106,33 @@ fn lines(line: &str) -> String {
     line.repeat(SIZE / line.len())
 }
 
-/// Names the case that a run of this program is for.
-const CASE: &str = "MEMORY_CASE";
+/// Names the file that a run of this program is to read.
+const FILE: &str = "MEMORY_FILE";
 
-/// Runs a test of this program on a case, in a program of its own: what is freed is not given back to the system at once.
-fn run_alone(test: &str, case: &str) {
+/// Runs a test of this program on a file, in a program of its own: what has been freed is not given back to the system.
+fn run_alone(test: &str, path: &Path) {
     let mut program = Command::new(std::env::current_exe().unwrap());
     let arguments = ["--exact", test, "--nocapture", "--include-ignored"];
-    assert!(program.args(arguments).env(CASE, case).status().unwrap().success(), "{case}");
+    assert!(program.args(arguments).env(FILE, path).status().unwrap().success(), "{}", path.display());
 }
 
 #[test]
 fn reading_takes_at_most_ten_times_the_file() {
-    let Ok(case) = std::env::var(CASE) else {
-        return CASES
-            .iter()
-            .for_each(|(what, ..)| run_alone("reading_takes_at_most_ten_times_the_file", what));
+    let Some(path) = std::env::var_os(FILE).map(PathBuf::from) else {
+        let folder = tempfile::tempdir().unwrap();
+        for (what, extension, bytes) in CASES {
+            let path = folder.path().join(what).with_extension(extension);
+            fs::write(&path, bytes()).unwrap();
+            run_alone("reading_takes_at_most_ten_times_the_file", &path);
+            fs::remove_file(path).unwrap();
+        }
+        return;
     };
-    let (what, read, bytes) = CASES.into_iter().find(|(what, ..)| *what == case).unwrap();
-    let bytes = bytes();
+    let bytes = fs::read(&path).unwrap();
     let before = peak();
-    let outcome = read(&bytes);
+    let outcome = read(&bytes, &path);
     let taken = peak() - before;
+    let what = path.file_name().unwrap().display();
     println!("{what}: {:.1} × the file: {outcome}", taken as f64 / bytes.len() as f64 + 1.0);
     // The file itself is in memory too.
     assert!(taken + bytes.len() <= 10 * bytes.len(), "{what}: {taken} for {} bytes", bytes.len());
@@ -178,12 +155,13 @@ fn hills(count: usize) -> TriMesh {
 #[test]
 #[ignore = "half a minute: by its name, to know how much large files take"]
 fn large_files_take_a_few_times_their_size() {
-    let Some(path) = std::env::var_os(CASE).map(PathBuf::from) else {
+    let Some(path) = std::env::var_os(FILE).map(PathBuf::from) else {
         let folder = tempfile::tempdir().unwrap();
         for (name, count) in [("large.obj", 1240), ("large.stl", 1010), ("large.ply", 1650)] {
             let path = folder.path().join(name);
             write_mesh(&hills(count), &path).unwrap();
-            run_alone("large_files_take_a_few_times_their_size", path.to_str().unwrap());
+            run_alone("large_files_take_a_few_times_their_size", &path);
+            fs::remove_file(path).unwrap();
         }
         return;
     };
@@ -195,7 +173,7 @@ fn large_files_take_a_few_times_their_size() {
     let (taken, seconds) = (peak() - before, start.elapsed().as_secs_f64());
     println!(
         "{}: {:.1} × {} MB in {seconds:.2} s, of which the mesh is {} MB",
-        path.display(),
+        path.file_name().unwrap().display(),
         taken as f64 / bytes as f64,
         bytes / 1_000_000,
         12 * (file.mesh.positions.len() + file.mesh.triangles.len()) / 1_000_000
