@@ -5,7 +5,8 @@ use glam::{DVec3, Vec3};
 
 /// sin² of an angle below which two segments count as parallel.
 const PARALLEL: f64 = 1e-24;
-/// sin² of an angle below which three points count as collinear: of a thinner sliver the areas are mostly rounding.
+/// The square of a triangle's height over its longest edge below which its corners count as collinear: of a thinner sliver
+/// the areas are mostly rounding.
 const SLIVER: f64 = 1e-20;
 /// How far the weights of a triangle may be from 1 in all before they are made so: areas of a sliver, and those under a
 /// point far away, are full of rounding.
@@ -27,7 +28,8 @@ pub fn closest_on_segment(point: DVec3, [a, b]: [DVec3; 2]) -> [f64; 2] {
 pub fn closest_on_triangle(point: DVec3, [a, b, c]: [DVec3; 3]) -> [f64; 3] {
     let normal = (b - a).cross(c - a);
     let area_squared = normal.length_squared();
-    if area_squared > SLIVER * (b - a).length_squared() * (c - a).length_squared() {
+    let longest_squared = [b - a, c - b, a - c].iter().map(|edge| edge.length_squared()).fold(0.0, f64::max);
+    if area_squared > SLIVER * longest_squared * longest_squared {
         // Weights as areas of the three triangles under the point's projection.
         let (pa, pb, pc) = (a - point, b - point, c - point);
         let weights = [pb.cross(pc), pc.cross(pa), pa.cross(pb)].map(|area| area.dot(normal) / area_squared);
