@@ -44,12 +44,17 @@ pub(crate) const STEPS: &[Step] = &[
     Step { name: "miri", about: "tests of unsafe code, if there is any", check: setup::miri },
 ];
 
-/// By name only: what a busy machine or a registry that is away may break.
+/// By name only: what a busy machine or a registry that is away may break, and what is slow.
 pub(crate) const MORE: &[Step] = &[
     Step {
         name: "meshes",
         about: "meshes of public packages are examined and repaired",
         check: meshes::meshes,
+    },
+    Step {
+        name: "miri-readers",
+        about: "tests of the mesh readers, under Miri",
+        check: setup::miri_of_readers,
     },
     Step {
         name: "browser",
