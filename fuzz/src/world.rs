@@ -89,7 +89,10 @@ impl Calls<'_> {
             9 => self.join(),
             10 => self.attach(),
             11 => self.ask(),
-            12 => Ok(self.world = World::restore(&self.world.snapshot())?),
+            12 => {
+                self.world = World::restore(&self.world.snapshot())?;
+                Ok(())
+            }
             13 => {
                 let force = self.vector();
                 self.world.set_wind(force)
@@ -129,7 +132,7 @@ impl Calls<'_> {
         };
         let body = RigidBody::new(&Arc::new(shape)).position(position).rotation(self.rotation());
         let body = body.velocity(self.vector()).angular_velocity(self.vector()).mass(self.number());
-        let is_fixed = self.byte() % 8 == 0;
+        let is_fixed = self.byte().is_multiple_of(8);
         self.world.add(if is_fixed { body.fixed() } else { body })
     }
 
@@ -138,13 +141,13 @@ impl Calls<'_> {
             return Ok(());
         }
         self.steps += 1;
-        let dt = if self.byte() % 8 == 0 { self.number() } else { 1.0 / 60.0 };
+        let dt = if self.byte().is_multiple_of(8) { self.number() } else { 1.0 / 60.0 };
         self.world.step(dt).map(|_| ())
     }
 
     fn join(&mut self) -> Result<(), Error> {
         let (Some(body), base) = (self.body(), self.body()) else { return Ok(()) };
-        let base = if self.byte() % 2 == 0 { base } else { None };
+        let base = if self.byte().is_multiple_of(2) { base } else { None };
         let (anchor, kind) = (self.vector(), self.byte() % 5);
         let (number, axis) = (self.number(), self.vector());
         match kind {

@@ -203,7 +203,7 @@ mod tests {
     #[test]
     fn changes_are_found_and_named() {
         type Change = (&'static str, fn(&mut Shape));
-        let changes: [Change; 17] = [
+        let changes: [Change; 18] = [
             ("parts", |s| s.parts.clear()),
             ("parts[0]", |s| s.parts[0].convex.radius = f32::NAN),
             ("parts[0]", |s| s.parts[0].convex.vertices[3].x += 0.1),
