@@ -148,7 +148,7 @@ mod tests {
     #[test]
     fn weights_of_a_sliver_sum_to_one() {
         let corner = DVec3::new(12.078_612_327_575_684, 12.078_431_129_455_566, 2.0);
-        let [small, smaller] = [2.715_197_069_846_906_8e-6, 2.715_166_829_148_074_6e-6];
+        let [small, smaller] = [2.715_197_069_846_907e-6, 2.715_166_829_148_074_6e-6];
         let corners =
             [DVec3::new(small, smaller, smaller) - corner, DVec3::splat(smaller) - corner, DVec3::ZERO];
         for point in [DVec3::ZERO, corners[0] * 0.5, corners[1] * 1e-3, DVec3::X] {
