@@ -1,4 +1,5 @@
-//! What the targets share.
+//! What the targets of mesh files share. Those of the files beside it are modules of their targets, and of the ordinary
+//! tests, which run them on the seeds.
 
 use tautline_scene::mesh_file::{Format, Limits, parse};
 

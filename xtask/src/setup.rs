@@ -72,22 +72,29 @@ fn install_validator(project: &Project) -> Result<(), String> {
     run(program(project, "npm", &["ci", "--no-audit", "--no-fund"]).current_dir(folder))
 }
 
-/// Miri runs the engine's tests where there is unsafe code for it to judge, and those of the mesh readers.
+/// Miri runs the engine's tests where there is unsafe code for it to judge.
 pub(crate) fn miri(project: &Project) -> Result<Outcome, String> {
     let files = text_files(&project.root)?;
     if files.iter().all(|file| unsafe_lines(file).is_empty()) {
         return Ok(Outcome::Noted("there is no unsafe code, so nothing for Miri to judge".into()));
     }
+    // Only the tests of the folder that has unsafe code, since Miri is slow.
+    miri_test(project, "tautline", "simd::")
+}
+
+/// Miri runs the unit tests of the mesh readers, over seeds that are changed and cut off.
+pub(crate) fn miri_of_readers(project: &Project) -> Result<Outcome, String> {
+    miri_test(project, "tautline-scene", "mesh_file::")
+}
+
+/// Runs the unit tests of a package that have this in their names under Miri.
+fn miri_test(project: &Project, package: &str, tests: &str) -> Result<Outcome, String> {
     let toolchain =
         ["toolchain", "install", "nightly", "--profile", "minimal", "--component", "miri,rust-src"];
     run(&mut program(project, "rustup", &toolchain))?;
-    // Through rustup: the Cargo that runs this program is of the stable toolchain. Only the tests of the folder that
-    // has unsafe code, since Miri is slow, and with the instructions that it is about.
-    run(program(
-        project,
-        "rustup",
-        &["run", "nightly", "cargo", "miri", "test", "-p", "tautline", "--lib", "simd::"],
-    )
-    .env("RUSTFLAGS", "-C target-feature=+avx2"))?;
+    // Through rustup: the Cargo that runs this program is of the stable toolchain.
+    let test = ["run", "nightly", "cargo", "miri", "test", "--locked", "-p", package, "--lib", tests];
+    // The unsafe code is about these instructions.
+    run(program(project, "rustup", &test).env("RUSTFLAGS", "-C target-feature=+avx2"))?;
     Ok(Outcome::Passed)
 }

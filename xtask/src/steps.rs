@@ -49,12 +49,19 @@ pub(crate) const STEPS: &[Step] = &[
     Step { name: "miri", about: "tests of unsafe code, if there is any", check: setup::miri },
 ];
 
-/// By name only: it fetches a hundred megabytes of packages for their meshes.
-pub(crate) const MORE: &[Step] = &[Step {
-    name: "meshes",
-    about: "meshes of public packages are examined and repaired",
-    check: meshes::meshes,
-}];
+/// By name only: one fetches a hundred megabytes of packages for their meshes, the other is slow.
+pub(crate) const MORE: &[Step] = &[
+    Step {
+        name: "meshes",
+        about: "meshes of public packages are examined and repaired",
+        check: meshes::meshes,
+    },
+    Step {
+        name: "miri-readers",
+        about: "tests of the mesh readers, under Miri",
+        check: setup::miri_of_readers,
+    },
+];
 
 fn format(project: &Project) -> Result<Outcome, String> {
     run_command(&mut cargo(project, &["fmt", "--all", "--check"]))?;

@@ -34,6 +34,9 @@ impl Format {
 /// The most bytes of JSON5 that become JSON: in between they take up to a hundred times as much memory.
 const JSON5_BYTES: usize = 16 << 20;
 
+/// The most bytes of TOML: its parser takes up to thirty times as much memory, for tables that are empty.
+const TOML_BYTES: usize = 2 << 20;
+
 /// Reads a document. Its values are not judged: that is [`Scene::check`].
 ///
 /// # Errors
@@ -123,6 +126,11 @@ fn message_json5(error: &json5::Error) -> String {
 }
 
 fn parse_toml(text: &str) -> Result<Scene, Error> {
+    if text.len() > TOML_BYTES {
+        let message =
+            format!("{} bytes of TOML are more than {TOML_BYTES}: as JSON it may be larger", text.len());
+        return Err(refusal("", (1, 1), message));
+    }
     let place = |error: &toml::de::Error| line_and_column(text, error.span().map_or(0, |span| span.start));
     let message = |error: &toml::de::Error| error.message().to_owned();
     let deserializer =

@@ -342,13 +342,14 @@ impl Frame {
         Self { center, axes: Mat3::from_quat(rotation * shape.principal_rotation()) }
     }
 
-    /// The frame that four particles are in.
+    /// The frame that four particles are in. So far from the origin that rounding leaves them in a plane, a line or a point,
+    /// it is one of those that may have been.
     pub(crate) fn of_particles(x: &[Vec3]) -> Self {
         let center = (x[0] + x[1] + x[2] + x[3]) * 0.25;
         let (first, second) = ((x[0] + x[1]) - (x[2] + x[3]), (x[0] - x[1]) + (x[2] - x[3]));
-        let e0 = first * (1.0 / first.length());
-        let e2 = e0.cross(second);
-        let e2 = e2 * (1.0 / e2.length());
+        let unit = |v: Vec3| Some(v * (1.0 / v.length())).filter(|unit| unit.is_finite());
+        let e0 = unit(first).unwrap_or(Vec3::X);
+        let e2 = unit(e0.cross(second)).unwrap_or_else(|| e0.any_orthonormal_vector());
         Self { center, axes: Mat3::from_cols(e0, e2.cross(e0), e2) }
     }
 

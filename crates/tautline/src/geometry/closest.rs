@@ -3,8 +3,13 @@
 
 use glam::{DVec3, Vec3};
 
-/// sin² of an angle below which three points count as collinear and two segments as parallel.
+/// sin² of an angle below which two segments count as parallel.
 const PARALLEL: f64 = 1e-24;
+/// The square of a triangle's height over its longest edge below which its corners count as collinear.
+const SLIVER: f64 = 1e-24;
+/// How far the weights of a triangle may be from 1 in all before they are made so: areas of a sliver, and those under a
+/// point far away, are full of rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// Weights over `[a, b]` of the segment's point closest to `point`. A segment without length gives `[1, 0]`.
 #[inline]
@@ -22,12 +27,14 @@ pub fn closest_on_segment(point: DVec3, [a, b]: [DVec3; 2]) -> [f64; 2] {
 pub fn closest_on_triangle(point: DVec3, [a, b, c]: [DVec3; 3]) -> [f64; 3] {
     let normal = (b - a).cross(c - a);
     let area_squared = normal.length_squared();
-    if area_squared > PARALLEL * (b - a).length_squared() * (c - a).length_squared() {
+    let longest_squared = [b - a, c - b, a - c].iter().map(|edge| edge.length_squared()).fold(0.0, f64::max);
+    if area_squared > SLIVER * longest_squared * longest_squared {
         // Weights as areas of the three triangles under the point's projection.
         let (pa, pb, pc) = (a - point, b - point, c - point);
         let weights = [pb.cross(pc), pc.cross(pa), pa.cross(pb)].map(|area| area.dot(normal) / area_squared);
-        if weights.iter().all(|&weight| weight >= 0.0) {
-            return weights;
+        let sum = weights.iter().sum::<f64>();
+        if sum > 0.0 && weights.iter().all(|&weight| weight >= 0.0) {
+            return if (sum - 1.0).abs() > ROUNDING { weights.map(|weight| weight / sum) } else { weights };
         }
     }
     closest_on_outline(point, [a, b, c])
@@ -136,6 +143,18 @@ mod tests {
     /// A point of a convex hull is the closest to `point` if and only if no corner lies further towards it.
     fn is_closest(found: DVec3, point: DVec3, corners: &[DVec3]) -> bool {
         corners.iter().all(|&corner| (point - found).dot(corner - found) < 1e-9)
+    }
+
+    #[test]
+    fn weights_of_a_sliver_sum_to_one() {
+        let corner = DVec3::new(12.078_612_327_575_684, 12.078_431_129_455_566, 2.0);
+        let [small, smaller] = [2.715_197_069_846_907e-6, 2.715_166_829_148_074_6e-6];
+        let corners =
+            [DVec3::new(small, smaller, smaller) - corner, DVec3::splat(smaller) - corner, DVec3::ZERO];
+        for point in [DVec3::ZERO, corners[0] * 0.5, corners[1] * 1e-3, DVec3::X] {
+            // It asserts just that.
+            sum(closest_on_triangle(point, corners), corners);
+        }
     }
 
     proptest! {

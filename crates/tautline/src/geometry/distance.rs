@@ -45,7 +45,8 @@ pub struct Distance {
     /// them apart), in m.
     pub distance: f32,
     /// Unit, from A to B: `point_b - point_a` is `distance * normal`. If they penetrate, moving B by the depth
-    /// along it separates them.
+    /// along it separates them. Of a gap that is tiny beside the coordinates, rounding tilts it: by 1e-15 times the largest
+    /// coordinate over the gap.
     pub normal: Vec3,
     /// The witness point on A, in m: closest to B, or deepest in it.
     pub point_a: Vec3,

@@ -142,10 +142,23 @@ impl Epa {
             }
             self.add(vertex, VISIBLE * reach_squared.sqrt());
         }
-        match best {
+        match best.or_else(|| self.least_reaching(a, b)) {
             Some((face, height)) => self.hit(&face, height, iterations, false),
             None => HitFace { converged: false, ..flat_hit(&self.vertices[..3], DVec3::ZERO, iterations) },
         }
+    }
+
+    /// The face beyond which A ⊖ B reaches least, and how far: what is left to say where the origin lies so near an edge
+    /// that rounding puts it under no face at all.
+    fn least_reaching(&self, a: &impl Support, b: &impl Support) -> Option<(Face, f64)> {
+        let mut least: Option<(Face, f64)> = None;
+        for face in self.faces.iter().filter(|face| face.normal != DVec3::ZERO) {
+            let height = face.normal.dot(CsoVertex::support(a, b, face.normal).point);
+            if least.is_none_or(|(_, lowest)| height < lowest) {
+                least = Some((*face, height));
+            }
+        }
+        least
     }
 
     /// The candidate with the least offset; of equal ones the first.

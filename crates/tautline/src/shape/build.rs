@@ -102,16 +102,16 @@ impl Shape {
     /// As [`Shape::from_mesh`], with parts as close to the mesh, or as few, as you like.
     ///
     /// # Errors
-    /// As [`Shape::from_mesh`], and [`Error::OutOfRange`] for `max_parts` and `tolerance`.
+    /// As [`Shape::from_mesh`], and [`Error::OutOfRange`] for `max_parts`, `tolerance` and `max_corners`.
     pub fn decomposed(mesh: &TriMesh, decomposition: &Decomposition) -> Result<Self, Error> {
         decomposition.validate()?;
         let mass = Mass::of_mesh(mesh)?;
         all_coordinates("positions", &mesh.positions)?;
         let hull = convex_hull(&mesh.positions)?.mesh;
-        let (parts, excess) = decomposition.apply(mesh, &hull)?;
-        let cores: Vec<Core> = parts.iter().map(|corners| Core::sharp(corners)).collect();
+        let parts = decomposition.apply(mesh, &hull)?;
+        let cores: Vec<Core> = parts.corners.iter().map(|corners| Core::sharp(corners)).collect();
         let shape = Self::solid("mesh", &mass, &cores, mesh.clone())?;
-        Ok(Self { hull_excess: excess as f32, ..shape })
+        Ok(Self { hull_excess: parts.excess as f32, hull_shortfall: parts.shortfall, ..shape })
     }
 
     /// The union of solids, each rotated, then translated (in m). Their masses are added, also where they overlap.
@@ -147,7 +147,8 @@ impl Shape {
         }
         let mass = Mass::sum(&masses);
         let shape = Self::solid("parts", &mass, &cores, display)?;
-        Ok(Self { hull_excess: (excess / mass.volume) as f32, ..shape })
+        let shortfall = parts.iter().map(|(shape, ..)| shape.hull_shortfall).fold(0.0, f32::max);
+        Ok(Self { hull_excess: (excess / mass.volume) as f32, hull_shortfall: shortfall, ..shape })
     }
 
     /// The triangles of a mesh, in m, which may be open. Only their front, from where they run counter-clockwise, is
@@ -181,6 +182,7 @@ impl Shape {
             reach: reach_squared.sqrt(),
             inner_radius: 0.0,
             hull_excess: 0.0,
+            hull_shortfall: 0.0,
             display: TriMesh::default(),
             surface: Some(surface),
         }
@@ -208,6 +210,7 @@ impl Shape {
             reach,
             inner_radius,
             hull_excess: 0.0,
+            hull_shortfall: 0.0,
             display,
             surface: None,
         })

@@ -58,6 +58,7 @@ pub struct Shape {
     reach: f32,
     inner_radius: f32,
     hull_excess: f32,
+    hull_shortfall: f32,
     /// The surface to draw, in its own frame; empty if there is `surface`.
     display: TriMesh,
     /// Instead of parts.
@@ -125,6 +126,12 @@ impl Shape {
         self.hull_excess
     }
 
+    /// How far points of the concave meshes it was made from may lie outside its convex parts, in m: more than 0 only if
+    /// these were given fewer corners ([`Decomposition::max_corners`]).
+    pub fn hull_shortfall(&self) -> f32 {
+        self.hull_shortfall
+    }
+
     /// Without parts: until a snapshot's bodies are given their shapes.
     pub(crate) fn placeholder() -> Arc<Self> {
         Arc::new(Self {
@@ -135,6 +142,7 @@ impl Shape {
             reach: 0.0,
             inner_radius: 0.0,
             hull_excess: 0.0,
+            hull_shortfall: 0.0,
             display: TriMesh::default(),
             surface: None,
         })

@@ -29,6 +29,7 @@ impl Shape {
         ensure("reach", self.reach == reach)?;
         ensure("inner_radius", self.inner_radius == inner_radius)?;
         ensure("hull_excess", (0.0..=f32::MAX).contains(&self.hull_excess))?;
+        ensure("hull_shortfall", (0.0..=f32::MAX).contains(&self.hull_shortfall))?;
         ensure("display", is_drawable(&self.display))
     }
 }
@@ -202,7 +203,7 @@ mod tests {
     #[test]
     fn changes_are_found_and_named() {
         type Change = (&'static str, fn(&mut Shape));
-        let changes: [Change; 17] = [
+        let changes: [Change; 18] = [
             ("parts", |s| s.parts.clear()),
             ("parts[0]", |s| s.parts[0].convex.radius = f32::NAN),
             ("parts[0]", |s| s.parts[0].convex.vertices[3].x += 0.1),
@@ -219,6 +220,7 @@ mod tests {
             ("reach", |s| s.reach = 9.0),
             ("inner_radius", |s| s.inner_radius = f32::NAN),
             ("hull_excess", |s| s.hull_excess = f32::NAN),
+            ("hull_shortfall", |s| s.hull_shortfall = -1.0),
             ("display", |s| s.display.triangles[0][0] = 20),
         ];
         let cube = Shape::cuboid(Vec3::new(0.5, 0.4, 0.3)).unwrap();

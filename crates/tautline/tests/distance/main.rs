@@ -111,6 +111,38 @@ fn coordinates_of_any_size_give_finite_answers() {
     }
 }
 
+/// The origin lies so near an edge of A ⊖ B, for its size, that rounding puts it under no face.
+#[test]
+fn sets_that_are_deep_in_each_other_do_not_just_touch_whatever_their_sizes() {
+    let a = [
+        Vec3::new(1000.0, 1.5777218e-30, 1.7509618e-30),
+        Vec3::new(1.096e-42, 0.0, 1.7509592e-30),
+        Vec3::new(1.7509618e-30, 1.7509618e-30, 1100.0),
+        Vec3::new(2.1743272e10, 1.3979697e10, 1.3979697e10),
+        Vec3::new(1.24895894e33, 1.24971455e33, 1.24971455e33),
+        Vec3::new(1.24971455e33, 1.24971455e33, 1.24971455e33),
+        Vec3::new(1.24971455e33, 50.1, 1100.001),
+        Vec3::new(1.0161487e33, 6.089953e-39, -1.9187476e33),
+    ];
+    let b = [
+        Vec3::new(-3.9133117e31, 2.2959e-41, -4.2618373e37),
+        Vec3::new(-131072.0, 2.3700494e-30, 2.2903477e23),
+        Vec3::new(0.0029641031, 6.294144e-39, 2.2936682e23),
+        Vec3::new(1.6851347e-16, 2.3203006e23, 2.2936865e23),
+        Vec3::new(0.0029645204, 2.2959e-41, 1.6617473e35),
+        Vec3::new(9.5e-44, 0.0, 1032.0),
+        Vec3::new(50.0, -1.601611e-38, 1.3323083e7),
+    ];
+    let found = distance(&a, &b).unwrap();
+    let normal = found.normal.as_dvec3();
+    let highest = a.iter().map(|p| p.as_dvec3().dot(normal)).fold(f64::NEG_INFINITY, f64::max);
+    let lowest = b.iter().map(|p| p.as_dvec3().dot(normal)).fold(f64::INFINITY, f64::min);
+    assert!(
+        f64::from(found.distance) - (lowest - highest) <= 1e-6 * 4.3e37,
+        "{found:?}: {lowest} over {highest}"
+    );
+}
+
 /// Two concentric balls: every face of A ⊖ B is about as near as any other, the worst there is for EPA.
 #[test]
 fn many_points_end_in_time_and_own_up_to_it() {

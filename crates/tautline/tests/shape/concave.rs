@@ -1,8 +1,10 @@
 //! Solids from meshes, convex or not.
 
-use tautline::mesh::{MassProperties, TriMesh, primitives};
+use std::sync::Arc;
+
+use tautline::mesh::{MassProperties, TriMesh, convex_hull, primitives};
 use tautline::shape::Decomposition;
-use tautline::{Error, MeshDefect, Quat, Shape, Vec3};
+use tautline::{Error, MeshDefect, Quat, QueryFilter, RigidBody, Settings, Shape, Vec3, World};
 
 use crate::{check_frame, close, close_matrix, particle_moments};
 
@@ -34,6 +36,41 @@ fn a_torus_has_the_mass_of_its_mesh() {
     let coarse = Shape::decomposed(&torus, &Decomposition::default().max_parts(4)).unwrap();
     check_mass(&coarse, &torus);
     assert!(coarse.part_count() <= 4 && coarse.hull_excess() > 0.02);
+}
+
+#[test]
+fn parts_of_fewer_corners_say_how_far_the_solid_sticks_out() {
+    let torus = primitives::torus(1.0, 0.3, 24, 12).unwrap();
+    let whole = Shape::from_mesh(&torus).unwrap();
+    assert_eq!(whole.hull_shortfall(), 0.0);
+    let mut last = f32::INFINITY;
+    for corners in [8, 12, 16] {
+        let coarse = Shape::decomposed(&torus, &Decomposition::default().max_corners(corners)).unwrap();
+        check_mass(&coarse, &torus);
+        assert_eq!((coarse.part_count(), coarse.hull_excess()), (whole.part_count(), whole.hull_excess()));
+        // A vertex of the torus is no farther from the body's nearest point than is stated, and one is just so far.
+        let mut world = World::new(Settings::default()).unwrap();
+        let shape = Arc::new(coarse);
+        world.add(RigidBody::new(&shape).fixed()).unwrap();
+        let away = |&vertex: &Vec3| {
+            let found = world.closest_point(vertex, 1.0, QueryFilter::default()).unwrap();
+            found.unwrap().distance.max(0.0)
+        };
+        let farthest = torus.positions.iter().map(away).fold(0.0, f32::max);
+        let stated = shape.hull_shortfall();
+        assert!(farthest <= stated + 1e-6 && farthest > 0.2 * stated, "{corners}: {farthest} of {stated} m");
+        assert!(stated > 0.0 && stated < last, "{stated}");
+        last = stated;
+        let twice =
+            Shape::compound(&[(&whole, Vec3::ZERO, Quat::IDENTITY), (&shape, Vec3::Y, Quat::IDENTITY)]);
+        assert_eq!(twice.unwrap().hull_shortfall(), stated);
+    }
+    let ball = primitives::icosphere(1.0, 3).unwrap();
+    let coarse = Shape::decomposed(&ball, &Decomposition::default().max_corners(32)).unwrap();
+    assert_eq!(
+        coarse.hull_shortfall(),
+        convex_hull(&ball.positions).unwrap().coarsened(32, 0.0).unwrap().error
+    );
 }
 
 #[test]
@@ -123,6 +160,8 @@ fn what_is_no_solid_is_refused() {
         (Decomposition::default().max_parts(1 << 20), "max_parts"),
         (Decomposition::default().tolerance(-0.1), "tolerance"),
         (Decomposition::default().tolerance(f32::NAN), "tolerance"),
+        (Decomposition::default().max_corners(3), "max_corners"),
+        (Decomposition::default().max_corners(1 << 16), "max_corners"),
     ] {
         let refused = Shape::decomposed(&torus, &bad);
         assert!(matches!(refused, Err(Error::OutOfRange { field: found, .. }) if found == field));

@@ -1,11 +1,31 @@
 //! Bodies that start where they cannot be, and numbers that leave what f32 can hold.
 
-use tautline::{Cloth, HalfSpace, Rope, Settings, TrussBody, Vec3, World};
+use std::sync::Arc;
+
+use tautline::{Cloth, HalfSpace, Quat, RigidBody, Rope, Settings, Shape, TrussBody, Vec3, World};
 
 use crate::{DT, cube, icosahedron, mixed_scene, run, weightless};
 
 fn all_finite(world: &World) -> bool {
     world.positions().iter().all(|x| x.is_finite())
+}
+
+/// At 1e9 m numbers are 64 m apart.
+#[test]
+fn a_body_so_far_away_that_its_particles_coincide_has_a_frame_and_takes_torques() {
+    let mut world = World::new(weightless()).unwrap();
+    let shape = Arc::new(Shape::sphere(0.2).unwrap());
+    let body = world.add(RigidBody::new(&shape)).unwrap();
+    world.set_pose(body, Vec3::new(1e9, -1e9, 1e9), Quat::IDENTITY).unwrap();
+    let view = world.body(body).unwrap();
+    assert!(view.positions().iter().all(|x| *x == view.positions()[0]));
+    let (position, rotation) = view.pose().unwrap();
+    assert!(position.is_finite() && (rotation.length() - 1.0).abs() < 1e-6);
+    world.apply_torque(body, Vec3::ONE).unwrap();
+    World::restore(&world.snapshot()).unwrap();
+    world.step(DT).unwrap();
+    assert!(all_finite(&world));
+    World::restore(&world.snapshot()).unwrap();
 }
 
 /// Its force divided by its mass overflows: the body is frozen where it was, and everything else goes on.

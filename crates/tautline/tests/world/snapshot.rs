@@ -59,6 +59,24 @@ fn a_world_that_a_body_has_just_come_to_is_restored() {
     }
 }
 
+/// Every stripe of bodies has a copy of those that are kinematic.
+#[test]
+fn a_world_that_a_kinematic_body_has_just_left_is_restored() {
+    let shape = Arc::new(Shape::sphere(0.2).unwrap());
+    let ball = |x: f32| RigidBody::new(&shape).position(Vec3::new(x, 0.2, 0.0));
+    for removed in 0..3 {
+        let mut world = World::new(Settings::default()).unwrap();
+        let bodies = [ball(0.0), ball(0.5).kinematic(), ball(0.9).kinematic()];
+        let bodies = bodies.map(|body| world.add(body).unwrap());
+        run(&mut world, 3);
+        world.remove(bodies[removed]).unwrap();
+        let mut restored = World::restore(&world.snapshot()).unwrap();
+        run(&mut restored, 3);
+        run(&mut world, 3);
+        assert_eq!(world.state_hash(), restored.state_hash());
+    }
+}
+
 #[test]
 fn other_bytes_are_refused() {
     let bytes = mixed_scene(Settings::paper()).snapshot();

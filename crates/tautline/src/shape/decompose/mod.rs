@@ -12,24 +12,26 @@ mod piece;
 use glam::Vec3;
 
 use crate::error::{Error, within};
-use crate::mesh::TriMesh;
+use crate::mesh::{TriMesh, convex_hull};
 use carve::Carving;
 use join::join;
 use piece::{excess, inside};
 
 /// The least tolerance, as a share of the volume: less is rounding.
 const LEAST_TOLERANCE: f64 = 1e-5;
+
 /// How closely convex parts have to follow a concave solid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Decomposition {
     max_parts: u32,
     tolerance: f32,
+    max_corners: Option<u32>,
 }
 
 impl Default for Decomposition {
-    /// At most 32 parts, that together fill at most 2 % more than the solid.
+    /// At most 32 parts, that together fill at most 2 % more than the solid, with all corners that their hulls have.
     fn default() -> Self {
-        Self { max_parts: 32, tolerance: 0.02 }
+        Self { max_parts: 32, tolerance: 0.02, max_corners: None }
     }
 }
 
@@ -44,40 +46,71 @@ impl Decomposition {
         Self { tolerance, ..self }
     }
 
+    /// Most corners of a part (4 – 65 535), for contacts that cost less. Each part becomes the hull of so many of its
+    /// corners, the farthest first, and [`Shape::hull_shortfall`](super::Shape::hull_shortfall) says how much is lost.
+    pub fn max_corners(self, max_corners: u32) -> Self {
+        Self { max_corners: Some(max_corners), ..self }
+    }
+
     pub(super) fn validate(&self) -> Result<(), Error> {
+        let refusal = |field: &str, value: u32, expected| {
+            Err(Error::OutOfRange { field: field.into(), value: value.into(), expected })
+        };
         if !(1..=1024).contains(&self.max_parts) {
-            let expected = "a count from 1 to 1024";
-            return Err(Error::OutOfRange {
-                field: "max_parts".into(),
-                value: self.max_parts.into(),
-                expected,
-            });
+            return refusal("max_parts", self.max_parts, "a count from 1 to 1024");
+        }
+        if let Some(corners) = self.max_corners.filter(|corners| !(4..=65_535).contains(corners)) {
+            return refusal("max_corners", corners, "a count from 4 to 65 535");
         }
         within("tolerance", self.tolerance, 0.0, 1.0, "a number from 0 to 1").map(|_| ())
     }
 
-    /// The corners of convex parts that together cover the inside of a closed mesh, and the volume by which they
-    /// exceed it, as a share of it.
-    pub(super) fn apply(&self, mesh: &TriMesh, hull: &TriMesh) -> Result<(Vec<Vec<Vec3>>, f64), Error> {
+    /// Convex parts for the inside of a closed mesh.
+    pub(super) fn apply(&self, mesh: &TriMesh, hull: &TriMesh) -> Result<Parts, Error> {
+        let mut parts = self.cover(mesh, hull)?;
+        if let Some(max_corners) = self.max_corners {
+            for corners in parts.corners.iter_mut().filter(|corners| corners.len() > max_corners as usize) {
+                let coarse = convex_hull(corners)?.coarsened(max_corners as usize, 0.0)?;
+                *corners = coarse.hull.mesh.positions;
+                parts.shortfall = parts.shortfall.max(coarse.error);
+            }
+        }
+        Ok(parts)
+    }
+
+    /// Parts that together cover all of the inside.
+    fn cover(&self, mesh: &TriMesh, hull: &TriMesh) -> Result<Parts, Error> {
         let volume = inside(mesh);
         let allowed = f64::from(self.tolerance).max(LEAST_TOLERANCE) * volume;
         let concavity = inside(hull) - volume;
         if concavity <= allowed || self.max_parts == 1 {
-            return Ok((vec![hull.positions.clone()], concavity.max(0.0) / volume));
+            let corners = vec![hull.positions.clone()];
+            return Ok(Parts { corners, excess: concavity.max(0.0) / volume, shortfall: 0.0 });
         }
         let max_parts = self.max_parts as usize;
         let pieces = Carving::new(mesh)?.divide(max_parts, allowed)?;
         let pieces = join(pieces, max_parts, allowed)?;
         let excess = excess(&pieces) / volume;
-        Ok((pieces.into_iter().map(|piece| piece.corners).collect(), excess))
+        let corners = pieces.into_iter().map(|piece| piece.corners).collect();
+        Ok(Parts { corners, excess, shortfall: 0.0 })
     }
+}
+
+/// Convex parts of a solid.
+pub(super) struct Parts {
+    /// Of each part, in m.
+    pub(super) corners: Vec<Vec<Vec3>>,
+    /// The volume by which the parts, with all their corners, exceed the solid, as a share of it.
+    pub(super) excess: f64,
+    /// How far the solid may stick out of them, since corners were left out, in m.
+    pub(super) shortfall: f32,
 }
 
 #[cfg(test)]
 mod tests {
     use super::piece::bounds;
     use super::*;
-    use crate::mesh::{convex_hull, primitives};
+    use crate::mesh::primitives;
 
     /// A prism from y = 0 to 1 over a polygon of the XZ plane, counter-clockwise seen from above, and its triangles.
     fn prism(outline: &[[f32; 2]], ears: &[[u32; 3]]) -> TriMesh {
@@ -173,8 +206,8 @@ mod tests {
     /// Decomposes, checks against samples all over its box, and returns the number of parts and the excess.
     fn check(mesh: &TriMesh, decomposition: Decomposition) -> (usize, f64) {
         let hull = convex_hull(&mesh.positions).unwrap().mesh;
-        let (parts, excess) = decomposition.apply(mesh, &hull).unwrap();
-        let parts: Vec<TriMesh> = parts.iter().map(|corners| convex_hull(corners).unwrap().mesh).collect();
+        let Parts { corners, excess, .. } = decomposition.apply(mesh, &hull).unwrap();
+        let parts: Vec<TriMesh> = corners.iter().map(|corners| convex_hull(corners).unwrap().mesh).collect();
         let total: f64 = parts.iter().map(inside).sum();
         assert!((total / inside(mesh) - 1.0 - excess).abs() < 1e-5, "{total} {excess}");
         let (low, high) = bounds(&mesh.positions);

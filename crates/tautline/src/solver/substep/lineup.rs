@@ -169,13 +169,11 @@ impl Lineup {
         (self.places.len() as u32).saturating_sub(1)
     }
 
-    /// A body is removed: its place is empty, and those behind it have moved down.
-    pub(super) fn forget(&mut self, body: u32, place: u32) {
-        if let Some(place) = self.places.get_mut(place as usize) {
-            *place = NOBODY;
-        }
+    /// A body is removed: its place is empty, also those of its copies if it is kinematic, and those behind it have moved
+    /// down.
+    pub(super) fn forget(&mut self, body: u32) {
         for other in self.places.iter_mut().filter(|other| **other != NOBODY) {
-            *other -= u32::from(*other > body);
+            *other = if *other == body { NOBODY } else { *other - u32::from(*other > body) };
         }
     }
 

@@ -124,8 +124,8 @@ impl RigidSolver {
             self.versions.remove(body);
         }
         if body < self.lineup.place_of.len() {
-            let place = self.lineup.place_of.remove(body);
-            self.lineup.forget(body as u32, place);
+            self.lineup.place_of.remove(body);
+            self.lineup.forget(body as u32);
         }
         self.is_stale = true;
     }
