@@ -138,7 +138,7 @@ impl World {
             particles.displacement[body.particles.clone()].fill(Vec3::ZERO);
             particles.inverse_mass[body.particles.clone()].fill(0.0);
             body.freeze();
-            rigid.invalidate();
+            rigid.forget_contacts(lost.body);
             report.faults.push(Fault { body: slots.handle(lost.body), particle: lost.particle });
         }
         let states = self.rigid.finish_joints(&self.settings, h);

@@ -85,6 +85,14 @@ pub(crate) struct State {
     pub(crate) is_broken: bool,
 }
 
+impl State {
+    fn is_finite(&self) -> bool {
+        let Self { multipliers, angle, rate, force, torque, .. } = self;
+        let numbers = multipliers.iter().chain([angle, rate]);
+        numbers.copied().all(f32::is_finite) && force.is_finite() && torque.is_finite()
+    }
+}
+
 /// What a row with bounds does.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum Mode {
@@ -101,15 +109,12 @@ pub(crate) enum Mode {
 
 impl Joint {
     pub(crate) fn is_sound(&self, body_count: usize) -> bool {
-        let State { multipliers, angle, rate, force, torque, .. } = &self.state;
         let count = body_count as u32;
         self.body < count
             && self.base.is_none_or(|base| base < count && base != self.body)
             && self.on_body.is_finite()
             && self.on_base.is_finite()
-            && multipliers.iter().chain([angle, rate]).all(|number| number.is_finite())
-            && force.is_finite()
-            && torque.is_finite()
+            && self.state.is_finite()
             && self.strength.validate().is_ok()
             && self.kind.validate().is_ok()
     }

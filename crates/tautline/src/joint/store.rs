@@ -52,7 +52,10 @@ impl Joints {
         for (index, state) in states {
             let kept = &mut self.items[index as usize].state;
             let before = if adds { [kept.force, kept.torque] } else { [Vec3::ZERO; 2] };
-            *kept = State { force: before[0] + state.force, torque: before[1] + state.torque, ..state };
+            let state = State { force: before[0] + state.force, torque: before[1] + state.torque, ..state };
+            // What numbers cannot say any more begins anew.
+            let anew = State { is_broken: state.is_broken, ..State::default() };
+            *kept = if state.is_finite() { state } else { anew };
         }
     }
 
