@@ -4,7 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What is made, not written.
-const MADE: &[&str] = &["target", "out", "node_modules", ".git", "dist", "test-results", "replay.html"];
+const MADE: &[&str] =
+    &["target", "out", "node_modules", ".git", "dist", "corpus", "artifacts", "test-results", "replay.html"];
 
 /// A file of the project that is text.
 pub(crate) struct TextFile {

@@ -1,6 +1,8 @@
 //! Meshes that other people made: examined, repaired, and let fall if they are solids then. They are not a part of this
 //! project: `cargo xtask test --only meshes` fetches them and runs this; what it finds stands in `docs/meshes.md`.
 
+mod worked;
+
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,6 +14,7 @@ use tautline::{
     BodyHandle, Error, HalfSpace, RigidBody, Settings, Shape, Surface, Truss, TrussBody, Vec3, World,
 };
 use tautline_scene::mesh_file::{Limits, read_mesh};
+use worked::worked;
 
 /// Where `xtask` puts the files.
 const FOLDER: &str = "TAUTLINE_MESHES";
@@ -66,12 +69,6 @@ fn real_meshes_are_examined_repaired_and_come_to_rest() {
     }
     assert!(fallen[0] >= 3 && fallen[1] >= 3, "{table}");
     compare(&table);
-}
-
-/// What this thread has worked, in s: other programs on the machine do not count. Nothing where that is not known.
-fn worked() -> f64 {
-    let text = fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
-    text.split_whitespace().next().and_then(|word| word.parse::<f64>().ok()).unwrap_or(0.0) * 1e-9
 }
 
 /// How many defects there are of each kind.

@@ -4,6 +4,8 @@ mod gltf;
 mod hostile;
 mod ply;
 mod seeds;
+#[path = "../worked/mod.rs"]
+mod worked;
 
 use std::path::Path;
 

@@ -1,5 +1,6 @@
 //! The attachments of a world.
 
+use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::{Anchor, Attached, Attachment, End};
@@ -142,8 +143,10 @@ impl World {
     pub(crate) fn note_attachments(&mut self, h: f32) {
         for (index, force) in self.soft.attachment_forces(h) {
             let attached = &mut self.attachments.items[index];
-            attached.force = force;
-            let exceeds = |most: f32| attached.force.length() > most;
+            // More than numbers can say is more than anything bears, and no figure to be told.
+            let is_finite = force.is_finite();
+            attached.force = if is_finite { force } else { Vec3::ZERO };
+            let exceeds = |most: f32| !is_finite || force.length() > most;
             if attached.strength.break_force.is_some_and(exceeds) {
                 attached.is_broken = true;
                 self.soft.invalidate();

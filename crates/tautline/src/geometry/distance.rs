@@ -134,7 +134,8 @@ fn ordered_distance(a: &Set, b: &Set) -> Distance {
     let (a, b) = (Points(a.points), Points(b.points));
     let gjk = gjk::closest(&a, &b, &mut axis);
     if gjk.proximity == Proximity::Intersecting {
-        let face = Epa::default().hit_face(&a, &b, &gjk.simplex, axis, MAX_ITERATIONS - gjk.iterations);
+        let budget = MAX_ITERATIONS - gjk.iterations;
+        let face = Epa::with_room().hit_face(&a, &b, &gjk.simplex, axis, budget);
         Distance::penetrating(
             ContactFeatures::new(&a, &b, &face),
             gjk.iterations + face.iterations,

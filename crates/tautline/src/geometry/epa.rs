@@ -58,6 +58,15 @@ struct Face {
 }
 
 impl Epa {
+    /// With room for what most queries need, so that it does not grow step by step.
+    pub(crate) fn with_room() -> Self {
+        Self {
+            vertices: Vec::with_capacity(32),
+            faces: Vec::with_capacity(96),
+            horizon: Vec::with_capacity(32),
+        }
+    }
+
     /// Expands `simplex`, in which GJK left the origin, to the hit face. `axis` (from A to B, zero if
     /// unknown) only settles which way the normal of flat sets points. `budget` is the number of faces that may
     /// be tried, at most [`MAX_ITERATIONS`].
