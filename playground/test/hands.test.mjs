@@ -6,6 +6,7 @@ import { existsSync, readFileSync } from "node:fs";
 import { after, afterEach, before, test } from "node:test";
 
 import { launch, openPage, serve } from "./browser.mjs";
+import { CUBES, SQUARE } from "./meshes.mjs";
 import { hash, notice, open, picture, placeOf, ready, screenshot, step, time } from "./page.mjs";
 
 const DIST = new URL("../dist", import.meta.url).pathname;
@@ -184,26 +185,24 @@ test("a link leads to the same scene", async () => {
   }
 });
 
-const CUBE = "v 0 0 0\nv 40 0 0\nv 40 40 0\nv 0 40 0\nv 0 0 40\nv 40 0 40\nv 40 40 40\nv 0 40 40\n"
-  + "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
-const SQUARE = "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 1 4 3 2\n";
-
 /** Drops a file on the page. */
-const drop = (name, text) =>
-  page.evaluate(([name, text]) => {
+const drop = ([name, bytes]) =>
+  page.evaluate(([name, bytes]) => {
     const data = new DataTransfer();
-    data.items.add(new File([text], name));
+    data.items.add(new File([new Uint8Array(bytes)], name));
     window.dispatchEvent(new DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true }));
-  }, [name, text]);
+  }, [name, bytes]);
 
 test("a mesh that is dropped falls into the scene", async () => {
   await open(page, "tower", { n: 2 });
-  const before = await page.evaluate(() => window.playground.parts.length);
-  await drop("cube.obj", CUBE);
-  await notice(page, /cube\.obj: 12 triangles, a rigid body, scaled/);
-  await page.waitForFunction((count) => window.playground.parts.length === count, before + 1);
-  await drop("square.obj", SQUARE);
-  await page.waitForFunction((count) => window.playground.parts.length === count, before + 2);
+  let count = await page.evaluate(() => window.playground.parts.length);
+  for (const cube of CUBES) {
+    await drop(cube);
+    await notice(page, new RegExp(`${cube[0].replace(".", "\\.")}: 12 triangles, a rigid body, scaled`));
+    await page.waitForFunction((count) => window.playground.parts.length === count, ++count);
+  }
+  await drop(SQUARE);
+  await page.waitForFunction((count) => window.playground.parts.length === count, ++count);
   await step(page, 60);
   assert.match(await page.evaluate(() => window.playground.opened.text), /"mesh"/);
 });
