@@ -19,7 +19,8 @@ function stl() {
 }
 
 function ply() {
-  const header = ["ply", "format ascii 1.0", `element vertex ${POSITIONS.length}`, ...["x", "y", "z"].map((axis) => `property float ${axis}`)];
+  const axes = ["x", "y", "z"].map((axis) => `property float ${axis}`);
+  const header = ["ply", "format ascii 1.0", `element vertex ${POSITIONS.length}`, ...axes];
   const faces = [`element face ${QUADS.length}`, "property list uchar int vertex_indices", "end_header"];
   return bytes(lines(header, faces, POSITIONS.map((p) => p.join(" ")), QUADS.map((quad) => `4 ${quad.join(" ")}`)));
 }

@@ -68,7 +68,8 @@ test("the command line serves the playground with a named scene", { skip }, asyn
 
 test("it serves a file's scene, its meshes in it", { skip }, async () => {
   writeFileSync(join(folder, "t.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
-  writeFileSync(join(folder, "mine.json"), '{ "tautline": 1, "name": "mine", "bodies": [{ "rigid": { "shape": { "file": { "path": "t.obj" } } } }] }');
+  const scene = { tautline: 1, name: "mine", bodies: [{ rigid: { shape: { file: { path: "t.obj" } } } }] };
+  writeFileSync(join(folder, "mine.json"), JSON.stringify(scene));
   const { address, end } = await view(join(folder, "mine.json"));
   const { page, complaints, context } = await openPage(browser, address, { width: 640, height: 400 });
   await page.goto(address);

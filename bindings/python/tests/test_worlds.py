@@ -250,7 +250,7 @@ def test_python_goes_on_while_a_world_takes_one_step() -> None:
         time.sleep(0.0005)
     print(f"counted to {counted} during a step of {1000 * reports[0].seconds:.0f} ms")
     # Were Python held up by the step, this thread would come to its turn before and after it only.
-    assert counted > 10
+    assert counted > 50
 
 
 def test_stepping_from_python_costs_nothing_to_speak_of() -> None:

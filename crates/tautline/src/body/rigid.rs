@@ -1,8 +1,9 @@
 //! Rigid bodies of four particles.
 //!
 //! Any rigid body has the motion of four equal masses at s∘tᵢ in its principal frame, with t = (1, 1, 1),
-//! (1, −1, −1), (−1, 1, −1), (−1, −1, 1) and sₖ = √(Cₖ/M), Cₖ = ∫ xₖ² dm (Routh's equimomental system; Laus & Selig
-//! 2020, Acta Mechanica). Mass, centre and inertia are exact, and the particles are all that is stored of its motion.
+//! (1, −1, −1), (−1, 1, −1), (−1, −1, 1) and sₖ = √(Cₖ/M), Cₖ = ∫ xₖ² dm (Routh's equimomental system;
+//! Laus & Selig 2020, Acta Mechanica). Mass, centre and inertia are exact, and the particles are all that is stored of
+//! its motion.
 
 use std::sync::Arc;
 
