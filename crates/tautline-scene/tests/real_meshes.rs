@@ -10,9 +10,7 @@ use std::sync::Arc;
 
 use tautline::mesh::doctor::{Defect, RepairOptions, Repaired, Report, diagnose, repair};
 use tautline::mesh::{TriMesh, decimate};
-use tautline::{
-    BodyHandle, Error, HalfSpace, RigidBody, Settings, Shape, Surface, Truss, TrussBody, Vec3, World,
-};
+use tautline::{BodyHandle, Error, HalfSpace, RigidBody, Settings, Shape, Truss, TrussBody, Vec3, World};
 use tautline_scene::mesh_file::{Limits, read_mesh};
 use worked::worked;
 
@@ -24,10 +22,11 @@ const UPDATE: &str = "UPDATE_MESHES";
 const MOST_PARTED: usize = 2_000;
 /// Triangles of what is filled with tetrahedra, and steps, in seconds; what has more is decimated.
 const MOST_FILLED: usize = 5_000;
-/// In m, of rigid bodies: without it a ball of many facets rolls on.
-const ROLLING: f32 = 1e-3;
 /// What is slower is at rest, in m/s.
 const QUIET: f64 = 0.02;
+/// Not at rest after 20 s as a rigid body: a ball of 840 facets, each of which takes but a thirtieth of its energy when it
+/// rolls over an edge. Everything else has to be, and every truss.
+const ROLLS_ON: &str = "sphere.ply";
 
 #[test]
 #[ignore = "`cargo xtask test --only meshes` fetches the meshes"]
@@ -41,6 +40,7 @@ fn real_meshes_are_examined_repaired_and_come_to_rest() {
         .to_owned();
     let mut fallen = [0; 2];
     for path in &paths {
+        let name = path.file_name().unwrap().to_string_lossy();
         let start = worked();
         let row = match read_mesh(path, &Limits::default()) {
             Ok(file) => {
@@ -51,6 +51,8 @@ fn real_meshes_are_examined_repaired_and_come_to_rest() {
                 println!("{}: {} triangles, {seconds:.2} s of {bar:.0}", path.display(), report.triangles);
                 assert!(seconds < bar, "{seconds} s");
                 let [rigid, truss] = falls(&repaired);
+                assert_eq!(rigid.contains("still"), name == ROLLS_ON, "{rigid}");
+                assert!(!truss.contains("still"), "{truss}");
                 fallen[0] += usize::from(rigid.contains("rests"));
                 fallen[1] += usize::from(truss.contains("rests"));
                 format!(
@@ -64,7 +66,6 @@ fn real_meshes_are_examined_repaired_and_come_to_rest() {
             }
             Err(error) => format!(" | | refused: {error} | | | | "),
         };
-        let name = path.file_name().unwrap().to_string_lossy();
         writeln!(table, "| {name} | {row} |").unwrap();
     }
     assert!(fallen[0] >= 3 && fallen[1] >= 3, "{table}");
@@ -120,7 +121,7 @@ fn falls(repaired: &Repaired) -> [String; 2] {
 fn add_rigid(world: &mut World, mesh: &TriMesh) -> Result<BodyHandle, Error> {
     let shape = Arc::new(Shape::from_mesh(mesh)?);
     let body = RigidBody::new(&shape).position(Vec3::Y * (shape.reach() + 0.1)).mass(1.0);
-    world.add(body.rolling_friction(ROLLING))
+    world.add(body)
 }
 
 fn add_truss(world: &mut World, mesh: &TriMesh) -> Result<BodyHandle, Error> {
@@ -133,8 +134,7 @@ fn add_truss(world: &mut World, mesh: &TriMesh) -> Result<BodyHandle, Error> {
 fn comes_to_rest(mesh: &TriMesh, add: fn(&mut World, &TriMesh) -> Result<BodyHandle, Error>) -> String {
     let start = worked();
     let mut world = World::new(Settings::default()).unwrap();
-    let floor = Surface { rolling_friction: ROLLING, ..Surface::default() };
-    world.add(HalfSpace::floor(0.0).surface(floor)).unwrap();
+    world.add(HalfSpace::floor(0.0)).unwrap();
     let body = match add(&mut world, mesh) {
         Ok(body) => body,
         Err(error) => return error.to_string(),
@@ -150,9 +150,12 @@ fn comes_to_rest(mesh: &TriMesh, add: fn(&mut World, &TriMesh) -> Result<BodyHan
     let seen = world.body(body).unwrap();
     let lowest = seen.surface_positions().iter().map(|position| position.y).fold(f32::INFINITY, f32::min);
     let end = speed(&world);
-    let told = format!("rests after {moved:.1} s, at {:.1} mm/s", end * 1e3);
+    let told = if end < QUIET {
+        format!("rests after {moved:.1} s, at {:.1} mm/s", end * 1e3)
+    } else {
+        format!("still moves at {:.0} mm/s", end * 1e3)
+    };
     println!("  made in {made:.2} s, all in {:.2} s; {told}", worked() - start);
-    assert!(end < QUIET, "{told}");
     assert!(lowest > -0.02 && seen.center_of_mass().y < 0.5, "{lowest} m, {} m", seen.center_of_mass());
     told
 }
