@@ -86,6 +86,7 @@
 #![cfg_attr(
     not(test),
     warn(
+        clippy::disallowed_methods,
         clippy::unwrap_used,
         clippy::expect_used,
         clippy::panic,
@@ -105,6 +106,7 @@ pub mod inspect;
 mod joint;
 mod measure;
 pub mod mesh;
+mod norm;
 mod parallel;
 mod particles;
 mod query;

@@ -6,6 +6,7 @@ use crate::body::{Body, CollisionGroups, Frame, Motion, Substance};
 use crate::collision::Aabb;
 use crate::collision::bvh::{PairSearch, overlapping_pairs};
 use crate::geometry::query::separation;
+use crate::norm::Norm;
 use crate::query::{Piece, solid_piece_count};
 use crate::shape::Convex;
 use crate::world::World;
@@ -82,7 +83,7 @@ impl World {
             let Ok(body) = self.body(handle) else { continue };
             let positions = body.positions();
             for stick in body.sticks() {
-                let length = positions[stick.a as usize].distance(positions[stick.b as usize]);
+                let length = positions[stick.a as usize].distance_to(positions[stick.b as usize]);
                 let strain = (length / stick.rest_length - 1.0).abs();
                 max = max.max(strain);
                 sum += f64::from(strain);

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{Anchor, Attached, Attachment, End};
 use crate::body::{Body, Substance};
 use crate::error::Error;
+use crate::norm::Norm;
 use crate::slots::Slots;
 use crate::world::World;
 
@@ -146,7 +147,7 @@ impl World {
             // More than numbers can say is more than anything bears, and no figure to be told.
             let is_finite = force.is_finite();
             attached.force = if is_finite { force } else { Vec3::ZERO };
-            let exceeds = |most: f32| !is_finite || force.length() > most;
+            let exceeds = |most: f32| !is_finite || force.norm() > most;
             if attached.strength.break_force.is_some_and(exceeds) {
                 attached.is_broken = true;
                 self.soft.invalidate();

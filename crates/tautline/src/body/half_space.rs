@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::surface::Surface;
 use crate::error::{Error, coordinates, within};
+use crate::norm::Norm;
 
 /// Everything behind a plane is solid: the points x with n·x < offset. It never moves, and nothing can tunnel
 /// through it.
@@ -50,7 +51,7 @@ impl HalfSpace {
         self.surface.validate()?;
         // Scaled first, so that no length rounds to 0.
         let scaled = self.normal / self.normal.abs().max_element();
-        let Some(normal) = scaled.try_normalize() else {
+        let Some(normal) = scaled.try_unit() else {
             let problem = "is zero; it must point out of the solid".into();
             return Err(Error::Invalid { field: "normal".into(), problem });
         };

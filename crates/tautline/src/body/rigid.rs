@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use super::surface::{Combine, Surface};
 use crate::error::{Error, coordinates, within};
+use crate::norm::Norm;
 use crate::shape::Shape;
 
 /// tᵢ: where the particles are in the principal frame, in units of s.
@@ -348,7 +349,7 @@ impl Frame {
     pub(crate) fn of_particles(x: &[Vec3]) -> Self {
         let center = (x[0] + x[1] + x[2] + x[3]) * 0.25;
         let (first, second) = ((x[0] + x[1]) - (x[2] + x[3]), (x[0] - x[1]) + (x[2] - x[3]));
-        let unit = |v: Vec3| Some(v * (1.0 / v.length())).filter(|unit| unit.is_finite());
+        let unit = |v: Vec3| Some(v * (1.0 / v.norm())).filter(|unit| unit.is_finite());
         let e0 = unit(first).unwrap_or(Vec3::X);
         let e2 = unit(e0.cross(second)).unwrap_or_else(|| e0.any_orthonormal_vector());
         Self { center, axes: Mat3::from_cols(e0, e2.cross(e0), e2) }

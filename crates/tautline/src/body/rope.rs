@@ -7,6 +7,7 @@ use super::fabric::{Fabric, Stretch};
 use crate::constraint::{Angle, AngleLimit, Stick, angle_gradient};
 use crate::error::{Error, all_coordinates, coordinates, positive, within};
 use crate::geometry::sphere_tree::Feature;
+use crate::norm::Norm;
 
 /// A rope to be added to a world.
 #[derive(Debug, Clone, PartialEq)]
@@ -232,7 +233,7 @@ impl Rope {
     /// What the angle at a particle is held with, in rad/(N·m): for E I, half the length of both segments over it.
     fn bending_compliance_of(&self, a: u32, b: u32, c: u32) -> Option<f32> {
         let mean = |stiffness: f32| {
-            let lengths = self.point(a).distance(self.point(b)) + self.point(b).distance(self.point(c));
+            let lengths = self.point(a).distance_to(self.point(b)) + self.point(b).distance_to(self.point(c));
             0.5 * lengths * self.scale() / stiffness
         };
         self.bending_compliance.or(self.bending_stiffness.map(mean))
@@ -240,7 +241,7 @@ impl Rope {
 
     /// Its length at rest over that it is laid out at.
     fn scale(&self) -> f32 {
-        let length = |&[a, b]: &[u32; 2]| self.point(a).distance(self.point(b));
+        let length = |&[a, b]: &[u32; 2]| self.point(a).distance_to(self.point(b));
         let laid_out: f32 = self.segments.iter().map(length).sum();
         self.length.map_or(1.0, |length| length / laid_out)
     }

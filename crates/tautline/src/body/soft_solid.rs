@@ -8,6 +8,7 @@ use super::flesh::{Flesh, Material};
 use crate::error::{Error, MeshDefect, all_coordinates, coordinates, positive, within};
 use crate::geometry::sphere_tree::Feature;
 use crate::mesh::{Tetrahedra, TriMesh, lattice, tetrahedralise};
+use crate::norm::Norm;
 
 /// A soft solid to be added to a world: a jelly, a tyre, a sponge.
 ///
@@ -230,7 +231,7 @@ fn checked(solid: Tetrahedra) -> Result<Tetrahedra, Error> {
 }
 
 fn mean_edge(triangles: &[[u32; 3]], points: &[Vec3]) -> f32 {
-    let length = |a: u32, b: u32| points[a as usize].distance(points[b as usize]);
+    let length = |a: u32, b: u32| points[a as usize].distance_to(points[b as usize]);
     let around = |&[a, b, c]: &[u32; 3]| length(a, b) + length(b, c) + length(c, a);
     triangles.iter().map(around).sum::<f32>() / (3 * triangles.len()) as f32
 }

@@ -10,6 +10,7 @@ use crate::constraint::{OrderedLists, Stick};
 use crate::error::{Error, MeshDefect, all_coordinates, coordinates, positive, within};
 use crate::geometry::sphere_tree::{Feature, WrappedTree};
 use crate::mesh::{HalfEdgeMesh, TriMesh, tetrahedralise};
+use crate::norm::Norm;
 
 /// The shape of a truss body: made once, shared by all bodies that look alike.
 ///
@@ -234,7 +235,7 @@ fn is_convex(mesh: &TriMesh) -> bool {
     let tolerance = 1e-5 * extent(mesh);
     mesh.triangles.iter().all(|&[a, b, c]| {
         let [a, b, c] = [a, b, c].map(|v| mesh.positions[v as usize]);
-        let normal = (b - a).cross(c - a).normalize_or_zero();
+        let normal = (b - a).cross(c - a).unit_or_zero();
         mesh.positions.iter().all(|&p| normal.dot(p - a) <= tolerance)
     })
 }

@@ -10,6 +10,7 @@ use crate::geometry::distance;
 use crate::geometry::epa::Epa;
 use crate::geometry::sphere_tree::{DescentStack, WrappedSpheres, descend_pair, descend_self};
 use crate::geometry::support::Points;
+use crate::norm::Norm;
 use crate::parallel;
 use crate::particles::Particles;
 use crate::settings::ClothSolver;
@@ -228,7 +229,7 @@ fn leaf_contact(
 ) -> Contact {
     let (sphere_a, sphere_b) = (a.tree.leaf_spheres()[leaf_a], b.tree.leaf_spheres()[leaf_b]);
     let between = sphere_b.center - sphere_a.center;
-    let distance = between.length();
+    let distance = between.norm();
     let normal = if distance > 0.0 { between / distance } else { Vec3::Y };
     let patch = |body: u32, deformable: &Deformable, leaf: usize| {
         Patch::mean(scene.first(body), deformable.tree.topology().features()[leaf].particles())

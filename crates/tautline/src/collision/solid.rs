@@ -5,6 +5,7 @@ use glam::Vec3;
 use super::winding::is_inside;
 use crate::geometry::closest::closest_on_triangle;
 use crate::geometry::feature::FeaturePoint;
+use crate::norm::Norm;
 
 /// A closed surface in its present position.
 #[derive(Clone, Copy)]
@@ -25,7 +26,7 @@ pub(crate) struct Plane {
 impl Plane {
     /// Of a triangle, n pointing to where it is seen counter-clockwise.
     pub(crate) fn of([a, b, c]: [Vec3; 3]) -> Self {
-        let normal = (b - a).cross(c - a).normalize_or_zero();
+        let normal = (b - a).cross(c - a).unit_or_zero();
         Self { normal, offset: normal.dot(a) }
     }
 

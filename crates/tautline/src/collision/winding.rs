@@ -2,6 +2,8 @@
 
 use glam::{DVec3, Vec3};
 
+use crate::norm::Norm;
+
 /// Whether the surface winds around `point`: the solid angles of its triangles (Van Oosterom and Strackee 1983)
 /// sum to 4π inside and to 0 outside.
 pub(crate) fn is_inside(point: Vec3, positions: &[Vec3], triangles: &[[u32; 3]]) -> bool {
@@ -11,7 +13,7 @@ pub(crate) fn is_inside(point: Vec3, positions: &[Vec3], triangles: &[[u32; 3]])
 }
 
 fn solid_angle([a, b, c]: [DVec3; 3]) -> f64 {
-    let (la, lb, lc) = (a.length(), b.length(), c.length());
+    let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
     let volume = a.dot(b.cross(c));
     let denominator = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
     2.0 * libm::atan2(volume, denominator)

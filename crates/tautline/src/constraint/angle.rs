@@ -5,6 +5,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::{AngleLimit, any_perpendicular};
+use crate::norm::Norm;
 
 /// The angle at particle `b` between the directions to `a` and to `c`; π = straight.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -32,7 +33,7 @@ pub(crate) fn gradient(a: Vec3, b: Vec3, c: Vec3) -> Option<(f32, [Vec3; 3])> {
         return None;
     }
     let cross = u.cross(v);
-    let sine = cross.length();
+    let sine = cross.norm();
     let angle = libm::atan2f(sine, u.dot(v));
     let flat = sine * sine < 1e-12 * u_squared * v_squared;
     let normal = if flat { any_perpendicular(u) } else { cross / sine };

@@ -4,6 +4,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::AngleLimit;
+use crate::norm::Norm;
 
 /// The dihedral angle at an edge: 0 = flat, positive when the surface folds towards its normals (a valley).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -27,7 +28,7 @@ pub(crate) fn gradient(wings: [Vec3; 2], edge: [Vec3; 2]) -> Option<(f32, [Vec3;
     let normal_0 = (wings[0] - edge[0]).cross(wings[0] - edge[1]);
     let normal_1 = (wings[1] - edge[1]).cross(wings[1] - edge[0]);
     let (squared_0, squared_1) = (normal_0.length_squared(), normal_1.length_squared());
-    let length = along.length();
+    let length = along.norm();
     if squared_0 < 1e-24 || squared_1 < 1e-24 || length < 1e-10 {
         return None;
     }

@@ -8,6 +8,8 @@ mod stick;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
+use crate::norm::Norm;
+
 pub use angle::Angle;
 pub use bending::Bending;
 pub use stick::Stick;
@@ -62,5 +64,5 @@ pub(crate) fn any_perpendicular(v: Vec3) -> Vec3 {
     } else {
         Vec3::Z
     };
-    v.cross(axis).normalize_or_zero()
+    v.cross(axis).unit_or_zero()
 }

@@ -4,6 +4,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::norm::Norm;
 use crate::settings::SquareRoot;
 
 /// Two particles of a body and the distance at which they are kept: |x_b − x_a| = d.
@@ -34,12 +35,12 @@ impl Stick {
 
     /// By what share of its length it is too long where its body's particles are.
     pub(crate) fn strain(&self, positions: &[Vec3]) -> f32 {
-        positions[self.a as usize].distance(positions[self.b as usize]) / self.rest_length - 1.0
+        positions[self.a as usize].distance_to(positions[self.b as usize]) / self.rest_length - 1.0
     }
 
     /// A stick between two of `positions` that is at rest there.
     pub(crate) fn at_rest(a: u32, b: u32, positions: &[Vec3]) -> Self {
-        Self { a, b, rest_length: positions[a as usize].distance(positions[b as usize]) }
+        Self { a, b, rest_length: positions[a as usize].distance_to(positions[b as usize]) }
     }
 }
 

@@ -3,6 +3,8 @@
 
 use glam::{DVec3, Vec3};
 
+use crate::norm::Norm;
+
 /// sin² of an angle below which two segments count as parallel.
 const PARALLEL: f64 = 1e-24;
 /// The square of a triangle's height over its longest edge below which its corners count as collinear.
@@ -101,7 +103,7 @@ pub fn depth_in_convex(point: DVec3, positions: &[Vec3], triangles: &[[u32; 3]])
     for (face, triangle) in triangles.iter().enumerate() {
         let [a, b, c] = corners(positions, triangle)?;
         let normal = (b - a).cross(c - a);
-        let length = normal.length();
+        let length = normal.norm();
         if length == 0.0 {
             continue;
         }

@@ -8,6 +8,7 @@ use super::feature::{ContactFeatures, FeaturePoint};
 use super::gjk::{self, Gjk, MAX_ITERATIONS, Proximity};
 use super::support::{Points, Support};
 use crate::Error;
+use crate::norm::Norm;
 
 /// What [`contact`] found.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -166,7 +167,7 @@ impl Distance {
             |points: [DVec3; 3]| points[0] * weights[0] + points[1] * weights[1] + points[2] * weights[2];
         // From B to A.
         let separation = gjk.simplex.closest_point();
-        let gap = separation.length();
+        let gap = separation.norm();
         Self {
             distance: (gap as f32).min(f32::MAX),
             normal: (-separation / gap).as_vec3(),

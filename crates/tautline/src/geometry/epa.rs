@@ -10,6 +10,7 @@ use super::closest::closest_on_triangle;
 use super::gjk::MAX_ITERATIONS;
 use super::simplex::{CsoVertex, Simplex};
 use super::support::Support;
+use crate::norm::Norm;
 
 /// A support point this little beyond a face, as part of A ⊖ B's reach, lies on it.
 const ON_FACE: f64 = 1e-11;
@@ -107,7 +108,7 @@ impl Epa {
     fn face(&self, corners: [u32; 3]) -> Face {
         let [p, q, r] = corners.map(|i| self.vertices[i as usize].point);
         let area = (q - p).cross(r - p);
-        let length = area.length();
+        let length = area.norm();
         if length == 0.0 {
             return Face { corners, normal: DVec3::ZERO, offset: f64::INFINITY, is_candidate: false };
         }
@@ -233,7 +234,7 @@ fn farthest(a: &impl Support, b: &impl Support, known: &[CsoVertex], axis: DVec3
     let directions = match *known {
         [_] => [DVec3::X, DVec3::Y, DVec3::Z],
         [_, q] => {
-            let line = (q.point - base).normalize_or(DVec3::X);
+            let line = (q.point - base).unit_or(DVec3::X);
             let across = line.any_orthonormal_vector();
             [across, line.cross(across), DVec3::ZERO]
         }
@@ -241,11 +242,11 @@ fn farthest(a: &impl Support, b: &impl Support, known: &[CsoVertex], axis: DVec3
     };
     let mut best = None;
     let mut farthest = 0.0;
-    let mut reach = base.length();
+    let mut reach = base.norm();
     for direction in directions.into_iter().flat_map(|d| [d, -d]) {
         let vertex = CsoVertex::support(a, b, direction);
         let height = direction.dot(vertex.point - base);
-        reach = reach.max(vertex.point.length());
+        reach = reach.max(vertex.point.norm());
         if height > farthest {
             farthest = height;
             best = Some(vertex);
@@ -257,16 +258,16 @@ fn farthest(a: &impl Support, b: &impl Support, known: &[CsoVertex], axis: DVec3
 /// Unit vector at right angles to the hull of up to three vertices: of a triangle its normal, of a segment or a
 /// point the one nearest to `axis`. On the side of `axis` either way.
 fn flat_normal(vertices: &[CsoVertex], axis: DVec3) -> DVec3 {
-    let axis = axis.normalize_or(DVec3::Y);
+    let axis = axis.unit_or(DVec3::Y);
     match *vertices {
         [p, q, r] => {
-            let normal = (q.point - p.point).cross(r.point - p.point).normalize_or(axis);
+            let normal = (q.point - p.point).cross(r.point - p.point).unit_or(axis);
             if normal.dot(axis) < 0.0 { -normal } else { normal }
         }
         [p, q] => {
-            let line = (q.point - p.point).normalize_or(DVec3::X);
+            let line = (q.point - p.point).unit_or(DVec3::X);
             let across = axis - line * axis.dot(line);
-            if across.length_squared() > 1e-12 { across.normalize() } else { line.any_orthonormal_vector() }
+            if across.length_squared() > 1e-12 { across.unit() } else { line.any_orthonormal_vector() }
         }
         _ => axis,
     }

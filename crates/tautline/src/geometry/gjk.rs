@@ -7,6 +7,7 @@ use glam::{DVec3, Vec3};
 
 use super::simplex::{CsoVertex, Simplex};
 use super::support::Support;
+use crate::norm::Norm;
 
 /// Most iterations that a query may take, those of EPA included.
 pub const MAX_ITERATIONS: u32 = 64;
@@ -188,7 +189,7 @@ impl Walk {
             proximity => proximity,
         };
         if proximity == Proximity::Separated {
-            *axis = (self.direction / self.direction.length()).as_vec3();
+            *axis = (self.direction / self.direction.norm()).as_vec3();
         }
         Gjk { proximity, simplex: self.simplex, iterations: self.iterations, converged }
     }

@@ -8,6 +8,8 @@ mod enclosing;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
+use crate::norm::Norm;
+
 pub use enclosing::{EnclosingSphere, SupportPoints, circumsphere, smallest_enclosing_sphere};
 
 /// Widening that covers the rounding of a distance: 4 units in the last place.
@@ -45,7 +47,7 @@ impl Sphere {
     #[inline]
     pub fn around_two(a: Sphere, b: Sphere) -> Sphere {
         let offset = b.center - a.center;
-        let distance = offset.length();
+        let distance = offset.norm();
         // Where on the way from a's centre to b's; clamped, it is the centre of the one that contains the other.
         let along = 0.5 + 0.5 * (b.radius - a.radius) / larger(distance, f32::MIN_POSITIVE);
         let center = a.center + offset * along.clamp(0.0, 1.0);

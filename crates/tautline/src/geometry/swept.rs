@@ -10,6 +10,7 @@ use glam::{DVec3, Vec3};
 
 use super::closest::{closest_between_segments, closest_on_triangle};
 use crate::error::{Error, all_coordinates, within};
+use crate::norm::Norm;
 
 /// Most axes that are tried before two things count as meeting.
 const MAX_AXES: u32 = 64;
@@ -100,7 +101,7 @@ fn first_meeting<const A: usize, const B: usize>(
     let mut time = 0.0;
     for _ in 0..MAX_AXES {
         let gap = gap(a.map(|path| path.at(time)), b.map(|path| path.at(time)));
-        let distance = gap.length();
+        let distance = gap.norm();
         if distance <= meeting {
             return Ok(Some(not_after(time)));
         }

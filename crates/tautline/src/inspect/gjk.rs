@@ -8,6 +8,7 @@ use crate::geometry::epa::{Epa, HitFace};
 use crate::geometry::feature::ContactFeatures;
 use crate::geometry::gjk::{self, Gjk, Iteration, MAX_ITERATIONS, Proximity};
 use crate::geometry::support::Points;
+use crate::norm::Norm;
 use crate::world::{BodyHandle, World};
 
 /// The most vertices of a hull that is traced.
@@ -88,6 +89,6 @@ impl GjkTrace {
     /// The distance of the hulls, in m; below 0 how deep they are in each other.
     pub fn distance(&self) -> f32 {
         let [a, b] = self.points();
-        self.hit.as_ref().map_or_else(|| a.distance(b), |hit| -hit.features.depth)
+        self.hit.as_ref().map_or_else(|| a.distance_to(b), |hit| -hit.features.depth)
     }
 }

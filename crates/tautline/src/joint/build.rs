@@ -6,6 +6,7 @@ use super::measure::LocalFrame;
 use super::{BallJoint, DistanceJoint, FixedJoint, HingeJoint, Joint, Kind, SliderJoint, State, Strength};
 use crate::body::{Body, Frame, Motion, Substance};
 use crate::error::{Error, coordinates, positive, within};
+use crate::norm::Norm;
 use crate::world::{BodyHandle, World};
 
 /// A joint to be added to a world: any of the builders turns into one.
@@ -235,7 +236,7 @@ impl JointDescription {
         let basis = basis(coordinates("axis", self.axis())?)?;
         let (on_body, on_base) = (body.anchor(on_body, basis), base.anchor(on_base, basis));
         let reach = on_body.on_body(body.frame.center, body.frame.axes).anchor();
-        let length = reach.distance(on_base.on_body(base.frame.center, base.frame.axes).anchor());
+        let length = reach.distance_to(on_base.on_body(base.frame.center, base.frame.axes).anchor());
         let kind = self.kind(length)?;
         let (strength, state) = (link.strength, State::default());
         Ok(Joint { kind, body: index, base: base.index, on_body, on_base, strength, state })
@@ -263,7 +264,7 @@ fn anchors(anchors: &Anchors, body: &Side, base: &Side) -> Result<[Vec3; 2], Err
 /// Right-handed axes, the first along this one.
 fn basis(axis: Vec3) -> Result<Mat3, Error> {
     let scaled = axis / axis.abs().max_element();
-    let Some(axis) = scaled.try_normalize() else {
+    let Some(axis) = scaled.try_unit() else {
         return Err(Error::Invalid {
             field: "axis".into(),
             problem: "is zero; any length but that will do".into(),

@@ -4,6 +4,7 @@ use glam::{Mat3, Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
 use super::{Kind, MOST_ROWS};
+use crate::norm::Norm;
 
 /// An anchor and axes on a body, in its principal frame; on the world, in the world's. The first axis is the joint's.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -79,7 +80,7 @@ pub(crate) fn measure(kind: &Kind, base: &Placed, body: &Placed, near: f32) -> C
             let error = sine(turn);
             [d.y, d.z, error.x, error.y, error.z, d.x]
         }
-        Kind::Distance { .. } => [between.length(), 0.0, 0.0, 0.0, 0.0, 0.0],
+        Kind::Distance { .. } => [between.norm(), 0.0, 0.0, 0.0, 0.0, 0.0],
     }
 }
 

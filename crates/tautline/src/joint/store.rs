@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Joint, JointDescription, Kind, Motor, State};
 use crate::error::Error;
+use crate::norm::Norm;
 use crate::slots::Slots;
 use crate::world::World;
 
@@ -203,8 +204,8 @@ impl World {
             let state = &joint.state;
             let exceeds = |size: f32, most: Option<f32>| most.is_some_and(|most| size > most);
             let strength = &joint.strength;
-            if exceeds(state.force.length(), strength.break_force)
-                || exceeds(state.torque.length(), strength.break_torque)
+            if exceeds(state.force.norm(), strength.break_force)
+                || exceeds(state.torque.norm(), strength.break_torque)
             {
                 joint.state.is_broken = true;
                 let joint = self.joints.slots.handle(index);

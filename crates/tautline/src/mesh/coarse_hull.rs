@@ -6,6 +6,7 @@ use super::{ConvexHull, convex_hull, exact};
 use crate::error::{Error, MeshDefect, within};
 use crate::geometry::gjk::{Proximity, closest};
 use crate::geometry::support::Points;
+use crate::norm::Norm;
 
 /// A convex hull within another, of some of its corners.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,7 +67,7 @@ impl<'a> Choice<'a> {
     /// that is farthest from their plane. (The farthest from their triangle may lie in its plane.)
     fn new(corners: &'a [Vec3]) -> Self {
         let middle = corners.iter().map(|p| p.as_dvec3()).sum::<DVec3>() / corners.len() as f64;
-        let bounds = corners.iter().map(|p| p.as_dvec3().distance(middle)).collect();
+        let bounds = corners.iter().map(|p| p.as_dvec3().distance_to(middle)).collect();
         let found_at = vec![0; corners.len()];
         let mut choice = Self { corners, indices: Vec::new(), chosen: Vec::new(), bounds, found_at };
         choice.take(largest(&choice.bounds));
@@ -104,7 +105,7 @@ impl<'a> Choice<'a> {
         let mut axis = self.chosen[0] - corner[0];
         let found = closest(&Points(&corner), &Points(&self.chosen), &mut axis);
         let is_inside = found.proximity == Proximity::Intersecting;
-        if is_inside { 0.0 } else { found.simplex.closest_point().length() }
+        if is_inside { 0.0 } else { found.simplex.closest_point().norm() }
     }
 }
 

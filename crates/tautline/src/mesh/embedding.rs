@@ -7,6 +7,7 @@ use glam::{DMat3, DVec3, Vec3};
 use super::Tetrahedra;
 use crate::error::{Error, MeshDefect, all_coordinates};
 use crate::geometry::closest::closest_on_triangle;
+use crate::norm::Norm;
 
 /// Tetrahedra with less than this share of their longest edge's cube, six times over, say nothing of the points around them.
 const FLAT: f64 = 1e-6;
@@ -119,7 +120,7 @@ impl Cells {
         for cell in &self.cells {
             // The distance from the box around it is less, and quickly found.
             let [low, high] = cell.bounds();
-            if point.distance(point.clamp(low, high)) < best.1 {
+            if point.distance_to(point.clamp(low, high)) < best.1 {
                 let distance = cell.distance(point);
                 if distance < best.1 {
                     best = (cell, distance);
@@ -136,7 +137,7 @@ impl Cell {
         let [a, b, c, d] = corners;
         let edges = DMat3::from_cols(b - a, c - a, d - a);
         let longest =
-            (0..4).flat_map(|i| (0..i).map(move |j| corners[i].distance(corners[j]))).fold(0.0, f64::max);
+            (0..4).flat_map(|i| (0..i).map(move |j| corners[i].distance_to(corners[j]))).fold(0.0, f64::max);
         let is_flat = edges.determinant().abs() <= FLAT * longest * longest * longest;
         (!is_flat).then(|| Self { numbers, corners, inverse: edges.inverse() })
     }
@@ -156,7 +157,7 @@ impl Cell {
             [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]].map(|face| face.map(|i: usize| self.corners[i]));
         let distance = |corners: [DVec3; 3]| {
             let [s, t, u] = closest_on_triangle(point, corners);
-            point.distance(corners[0] * s + corners[1] * t + corners[2] * u)
+            point.distance_to(corners[0] * s + corners[1] * t + corners[2] * u)
         };
         faces.map(distance).into_iter().fold(f64::INFINITY, f64::min)
     }

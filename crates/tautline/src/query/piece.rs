@@ -10,6 +10,7 @@ use crate::geometry::query::{
     Closest, Motion, Ray, RayHit, Rounded, closest_to_convex, closest_to_triangle, ray_to_convex,
     ray_to_triangle,
 };
+use crate::norm::Norm;
 use crate::shape::{Convex, Part, Shape, Surface};
 
 /// A box that was rounded is larger by this share of its coordinates.
@@ -236,7 +237,7 @@ fn closest_on_surface(point: DVec3, surface: &Surface) -> Option<Closest> {
     let first: Cell<Option<(u32, Closest)>> = Cell::new(None);
     let is_near = |low: Vec3, high: Vec3| {
         let gap = (low.as_dvec3() - point).max(point - high.as_dvec3()).max(DVec3::ZERO);
-        first.get().is_none_or(|(_, found)| gap.length() <= found.distance)
+        first.get().is_none_or(|(_, found)| gap.norm() <= found.distance)
     };
     surface.search(is_near, |number| {
         let found = closest_to_triangle(point, surface.triangle(number).corners);

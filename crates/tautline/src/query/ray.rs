@@ -5,6 +5,7 @@ use glam::{DVec3, Vec3};
 use super::{QueryFilter, Selection, at_most};
 use crate::error::{Error, coordinates, within};
 use crate::geometry::query::{self, Ray, ray_to_half_space};
+use crate::norm::Norm;
 use crate::world::{BodyHandle, World};
 
 /// Where a ray enters a body.
@@ -93,7 +94,7 @@ impl World {
             body: self.slots.handle(body),
             point: ray.at(hit.t).as_vec3(),
             normal: hit.normal.as_vec3(),
-            distance: (hit.t * ray.direction.length()) as f32,
+            distance: (hit.t * ray.direction.norm()) as f32,
         }
     }
 }
@@ -102,7 +103,7 @@ fn checked(origin: Vec3, direction: Vec3, max: f32) -> Result<Ray, Error> {
     coordinates("origin", origin)?;
     coordinates("direction", direction)?;
     let direction: DVec3 = direction.as_dvec3();
-    let length = direction.length();
+    let length = direction.norm();
     within("direction", length as f32, 1e-6, 1e6, "a vector with a length from 1e-6 to 1e6")?;
     within("max", max, 0.0, 1e10, "a distance from 0 to 1e10 (m)")?;
     Ok(Ray { origin: origin.as_dvec3(), direction, max: f64::from(max) / length })

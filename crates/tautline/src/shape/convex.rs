@@ -6,6 +6,7 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
+use crate::norm::Norm;
 use crate::simd::{LANES, Lanes, Row, Vec3x8};
 
 /// The points within `radius` of the convex hull of `vertices`. The frame is that of the body: its centre of mass
@@ -70,7 +71,7 @@ impl Convex {
         let packed_normals = pack(&normals);
         let low = vertices.iter().copied().reduce(Vec3::min).unwrap_or_default();
         let high = vertices.iter().copied().reduce(Vec3::max).unwrap_or_default();
-        let size = 0.5 * (high - low).length() + radius;
+        let size = 0.5 * (high - low).norm() + radius;
         Self { vertices, faces, loops, radius, size, packed_vertices, packed_normals }
     }
 

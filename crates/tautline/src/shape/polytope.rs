@@ -5,6 +5,7 @@ use glam::{DVec3, Vec3};
 use super::{Convex, Face};
 use crate::error::Error;
 use crate::mesh::{HalfEdgeMesh, TriMesh, convex_hull};
+use crate::norm::Norm;
 
 /// Most corners of a polytope: faces name them by 16 bits.
 pub(super) const MAX_CORNERS: usize = u16::MAX as usize;
@@ -39,7 +40,7 @@ impl Convex {
             let first = loops.len() as u32;
             loops.extend(polygon.iter().map(|&corner| used.partition_point(|&v| v < corner) as u16));
             let corners = || polygon.iter().map(|&corner| positions[corner as usize]);
-            let normal = area_vector(corners()).normalize_or_zero();
+            let normal = area_vector(corners()).unit_or_zero();
             // The outermost corner's, so that none is outside.
             let offset = corners().map(|p| normal.dot(p.as_dvec3())).fold(f64::NEG_INFINITY, f64::max);
             let count = polygon.len() as u32;
@@ -130,7 +131,7 @@ impl Merging<'_> {
         let corners = self.topology.triangle(seed).map(|vertex| self.position(vertex));
         let mut region = Region {
             origin: corners[0].as_dvec3(),
-            normal: area_vector(corners.into_iter()).normalize_or_zero(),
+            normal: area_vector(corners.into_iter()).unit_or_zero(),
             triangles: vec![seed],
             outline: vec![3 * seed, 3 * seed + 1, 3 * seed + 2],
         };
@@ -198,7 +199,7 @@ impl Merging<'_> {
         let count = outline.len();
         (0..count).all(|place| {
             let [a, b, c] = [0, 1, 2].map(|k| self.position(outline[(place + k) % count]).as_dvec3());
-            (b - a).cross(c - b).dot(normal) >= -self.tolerance * (c - a).length()
+            (b - a).cross(c - b).dot(normal) >= -self.tolerance * (c - a).norm()
         })
     }
 }

@@ -7,6 +7,7 @@ use super::polytope::{MAX_CORNERS, flatness};
 use super::{Convex, Part, Shape};
 use crate::error::Error;
 use crate::mesh::TriMesh;
+use crate::norm::Norm;
 
 /// How many times the tolerance under which triangles become one face a face may be out of flatness.
 const SLACK: f64 = 4.0;
@@ -114,7 +115,7 @@ impl Convex {
     fn faces_are_flat(&self) -> bool {
         let tolerance = self.tolerance();
         self.faces.iter().enumerate().all(|(number, face)| {
-            (face.normal.length() - 1.0).abs() < 1e-5
+            (face.normal.norm() - 1.0).abs() < 1e-5
                 && self.corners(*face).all(|(vertex, _)| self.height(number, vertex).abs() <= tolerance)
         })
     }
@@ -160,7 +161,7 @@ impl Convex {
         let [a, b, c] =
             [side.start, side.end, side.after].map(|vertex| self.vertices[vertex as usize].as_dvec3());
         let normal = self.faces[side.face].normal.as_dvec3();
-        (b - a).cross(c - b).dot(normal) >= -tolerance * a.distance(c)
+        (b - a).cross(c - b).dot(normal) >= -tolerance * a.distance_to(c)
     }
 }
 

@@ -7,6 +7,7 @@ use crate::body::fabric::{AirGrip, Creep, Fabric, Gas, Stretch, Wear, volume_of}
 use crate::constraint::{AngleLimit, Bending, Stick, bending_gradient};
 use crate::error::{Error, within};
 use crate::mesh::{HalfEdgeMesh, TriMesh};
+use crate::norm::Norm;
 
 /// What a cloth was asked to be, beyond sticks of one length.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -237,7 +238,7 @@ impl Wish {
         let hinge = |[start, end, first, second]: [u32; 4]| {
             let [e0, e1, w0, w1] = [start, end, first, second].map(|corner| rest[corner as usize]);
             let (angle, _) = bending_gradient([w0, w1], [e0, e1])?;
-            let area = 0.5 * ((e1 - e0).cross(w0 - e0).length() + (e1 - e0).cross(w1 - e0).length());
+            let area = 0.5 * ((e1 - e0).cross(w0 - e0).norm() + (e1 - e0).cross(w1 - e0).norm());
             let compliance = area / (rigidity * (e1 - e0).length_squared());
             Some(Bending {
                 edge: [start, end],
@@ -284,7 +285,7 @@ impl Wish {
         let of_edge = |(edge, stick): (u32, &Stick)| {
             let (first, second) = half_edges.opposite_vertices(edge);
             let along = at(stick.b) - at(stick.a);
-            let area = |across: u32| 0.5 * along.cross(at(across) - at(stick.a)).length();
+            let area = |across: u32| 0.5 * along.cross(at(across) - at(stick.a)).norm();
             let shape = along.length_squared() / (area(first) + second.map_or(0.0, area)).max(1e-30);
             let is_diagonal = along.x != 0.0 && along.z != 0.0;
             match self.shear_compliance.filter(|_| is_diagonal) {

@@ -2,6 +2,7 @@
 
 use crate::error::{Error, positive, within};
 use crate::mesh::TriMesh;
+use crate::norm::Norm;
 
 /// The mass of a cloth, as it was given.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,7 +49,7 @@ fn shares(mesh: &TriMesh, density: f32) -> Vec<f32> {
     let mut masses = vec![0.0; mesh.positions.len()];
     for triangle in &mesh.triangles {
         let [a, b, c] = triangle.map(|corner| mesh.positions[corner as usize]);
-        let share = (b - a).cross(c - a).length() / 6.0 * density;
+        let share = (b - a).cross(c - a).norm() / 6.0 * density;
         triangle.iter().for_each(|&corner| masses[corner as usize] += share);
     }
     masses

@@ -9,6 +9,7 @@ use super::touch::Touch;
 use crate::geometry::epa::Epa;
 use crate::geometry::gjk::{self, MAX_ITERATIONS, Proximity};
 use crate::geometry::support::{Points, Support};
+use crate::norm::Norm;
 
 /// Memory to be kept and reused, so that calls allocate nothing.
 #[derive(Debug, Clone, Default)]
@@ -50,7 +51,7 @@ pub(super) fn touch<B: Core>(pair: &Pair<B>, scratch: &mut Scratch, axis: Vec3, 
     let (vertices, weights, normal, separation) = if gjk.proximity == Proximity::Separated {
         let (vertices, weights) = gjk.simplex.triangle();
         let apart = -gjk.simplex.closest_point();
-        (vertices, weights, apart.normalize_or(axis.as_dvec3()), apart.length())
+        (vertices, weights, apart.unit_or(axis.as_dvec3()), apart.norm())
     } else {
         let face = scratch.epa.hit_face(&a, &b, &gjk.simplex, axis, MAX_ITERATIONS - gjk.iterations);
         (face.vertices, face.barycentric, face.normal, -face.depth)

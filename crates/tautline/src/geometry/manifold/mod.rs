@@ -30,6 +30,7 @@ pub(crate) use plane::collide_plane;
 pub(crate) use triangle::{Triangle, collide_triangle};
 
 use self::core::{Core, Pair};
+use crate::norm::Norm;
 use crate::shape::Convex;
 use crate::simd::Lanes;
 use clip::Reference;
@@ -131,7 +132,7 @@ pub(crate) fn collide<L: Lanes>(
     margin: f32,
 ) -> Manifold {
     let pair = Pair { a, b, b_in_a };
-    let axis = b_in_a.translation.normalize_or(Vec3::Y);
+    let axis = b_in_a.translation.unit_or(Vec3::Y);
     if a.vertices.len() == 1 && b.vertices.len() == 1 {
         return round::balls(&pair, memory, axis, margin);
     }

@@ -5,6 +5,7 @@ use glam::Vec3;
 use super::key::{Body, Key};
 use super::reduce::{Candidate, reduce};
 use super::{Manifold, ManifoldPoint, SLOP, Scratch};
+use crate::norm::Norm;
 use crate::shape::Convex;
 use crate::simd::Lanes;
 
@@ -33,7 +34,7 @@ pub(crate) fn collide_plane<L: Lanes>(
             candidates.push(Candidate { on_a, separation, key: Key::corner(Body::A, index as u16) });
         }
     }
-    let size = a.vertices[lowest].length() + a.radius;
+    let size = a.vertices[lowest].norm() + a.radius;
     let count = reduce(candidates, normal, SLOP * size);
     for (point, candidate) in manifold.points.iter_mut().zip(&candidates[..count]) {
         *point = ManifoldPoint {

@@ -8,6 +8,7 @@ use super::key::{Body, Key};
 use super::reduce::Candidate;
 use super::touch::Touch;
 use super::{Manifold, Memory, Scratch};
+use crate::norm::Norm;
 
 /// The contact of two balls, or no points if they are further apart than `margin`. Where both centres are the same,
 /// the remembered axis is kept, or `axis` taken.
@@ -15,7 +16,7 @@ use super::{Manifold, Memory, Scratch};
 pub(super) fn balls<B: Core>(pair: &Pair<B>, memory: &mut Memory, axis: Vec3, margin: f32) -> Manifold {
     let on_a = pair.point_of_a(0);
     let on_b = pair.point_of_b(0);
-    let distance = (on_b - on_a).length();
+    let distance = (on_b - on_a).norm();
     let normal = if distance > 0.0 {
         (on_b - on_a) / distance
     } else if memory.is_usable(pair) {

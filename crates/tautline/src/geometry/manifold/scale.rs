@@ -1,6 +1,7 @@
 //! How large a pair is where it touches: what tolerances and shifts are parts of.
 
 use super::core::{Core, Pair};
+use crate::norm::Norm;
 
 /// Cores closer than this part of the smaller one's size are shifted apart …
 const NEAR: f32 = 1e-3;
@@ -20,7 +21,7 @@ impl Scale {
     #[inline(always)]
     pub(super) fn at<B: Core>(pair: &Pair<B>, [a, b]: [u16; 2]) -> Self {
         let (size_a, size_b) = (pair.a.size, pair.b.size());
-        let reach = pair.a.vertices[usize::from(a)].length() + pair.b.vertices()[usize::from(b)].length();
+        let reach = pair.a.vertices[usize::from(a)].norm() + pair.b.vertices()[usize::from(b)].norm();
         Self { size: if size_a < size_b { size_a } else { size_b }, coordinates: reach + size_a + size_b }
     }
 

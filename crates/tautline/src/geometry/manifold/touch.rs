@@ -17,6 +17,7 @@ use super::exact::{self, Scratch};
 use super::scale::Scale;
 use super::simplex::Simplex;
 use super::walk::{Walk, walk};
+use crate::norm::Norm;
 use crate::simd::Lanes;
 
 /// Cosine of the turn after which an axis rests: 0.26°.
@@ -175,7 +176,7 @@ fn climb<L: Lanes, B: Core>(pair: &Pair<B>, memory: &mut Memory, start: &Start, 
                 return Climb::Beyond;
             }
             Walk::Closest { point, simplex: reduced } => {
-                let length = point.length();
+                let length = point.norm();
                 let normal = point / length;
                 let turn = normal.dot(axis);
                 (axis, separation, simplex) = (normal, length - shift * turn, reduced);

@@ -12,6 +12,7 @@ use crate::geometry::epa::Epa;
 use crate::geometry::gjk::{self, Proximity};
 use crate::geometry::simplex::CsoVertex;
 use crate::geometry::support::Support;
+use crate::norm::Norm;
 use crate::shape::Convex;
 
 /// Once an advance is smaller, as part of the whole motion, the time is good enough.
@@ -60,8 +61,8 @@ impl<'a> Motion<'a> {
 
     /// The largest distance of a corner from the axis that it turns about: that it keeps.
     fn arm(&self) -> f64 {
-        let axis = self.rotation.inverse() * self.angular.normalize_or_zero();
-        self.shape.corners.iter().map(|corner| axis.cross(corner.as_dvec3()).length()).fold(0.0, f64::max)
+        let axis = self.rotation.inverse() * self.angular.unit_or_zero();
+        self.shape.corners.iter().map(|corner| axis.cross(corner.as_dvec3()).norm()).fold(0.0, f64::max)
     }
 }
 
@@ -123,7 +124,7 @@ pub(crate) fn first_touch(a: &Motion, b: &Motion, target: f64) -> Option<Touch> 
     let (arm_a, arm_b) = (a.arm(), b.arm());
     let closing = |normal: DVec3| {
         // (ω × r) · n = (n × ω) · r, of which only the part of r across ω counts.
-        let turning = normal.cross(a.angular).length() * arm_a + normal.cross(b.angular).length() * arm_b;
+        let turning = normal.cross(a.angular).norm() * arm_a + normal.cross(b.angular).norm() * arm_b;
         (a.linear - b.linear).dot(normal) + turning
     };
     let mut axis = (b.position - a.position).as_vec3();
@@ -137,7 +138,7 @@ pub(crate) fn first_touch_of_half_space(
     offset: f64,
     target: f64,
 ) -> Option<Touch> {
-    let turning = normal.cross(a.angular).length() * a.arm();
+    let turning = normal.cross(a.angular).norm() * a.arm();
     let closing = |_| turning - a.linear.dot(normal);
     advance(target, closing, |time| {
         let placed = a.at(time);
@@ -183,7 +184,7 @@ fn measure(a: &Placed, b: &Placed, axis: &mut Vec3) -> Separation {
     }
     let (vertices, weights) = gjk.simplex.triangle();
     let on_b: DVec3 = vertices.into_iter().zip(weights).map(|(v, weight)| b.point(v.b) * weight).sum();
-    let normal = (-gjk.simplex.closest_point()).normalize_or(axis.as_dvec3());
+    let normal = (-gjk.simplex.closest_point()).unit_or(axis.as_dvec3());
     // What separates them along this normal is certain, also where GJK stopped short of the closest points.
     let gap = -normal.dot(CsoVertex::support(a, b, normal).point);
     Separation { gap: gap - radii[0] - radii[1], normal, point: on_b - normal * radii[1] }
@@ -192,7 +193,7 @@ fn measure(a: &Placed, b: &Placed, axis: &mut Vec3) -> Separation {
 /// Of shapes whose cores overlap.
 fn overlap(a: &Placed, b: &Placed, axis: &mut Vec3, radii: [f64; 2]) -> Separation {
     let found = distance::contact(a, b, axis, &mut Epa::default()).features;
-    let normal = found.map_or(*axis, |found| found.normal).as_dvec3().normalize_or(DVec3::Y);
+    let normal = found.map_or(*axis, |found| found.normal).as_dvec3().unit_or(DVec3::Y);
     let (depth, point) =
         found.map_or((0.0, b.position), |found| (f64::from(found.depth), found.point_b.as_dvec3()));
     Separation { gap: -depth - radii[0] - radii[1], normal, point: point - normal * radii[1] }

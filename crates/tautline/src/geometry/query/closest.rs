@@ -3,6 +3,7 @@
 use glam::{DVec3, Vec3};
 
 use crate::geometry::closest::{closest_on_segment, closest_on_triangle};
+use crate::norm::Norm;
 use crate::shape::Convex;
 
 use super::fan;
@@ -25,7 +26,7 @@ impl Closest {
     /// itself.
     fn around(point: DVec3, on_core: DVec3, radius: f64, fallback: DVec3) -> Self {
         let gap = point - on_core;
-        let length = gap.length();
+        let length = gap.norm();
         let rounding = ROUNDING * point.abs().max(on_core.abs()).max_element();
         let normal = if length > rounding { gap / length } else { fallback };
         Self { point: on_core + normal * radius, distance: length - radius, normal }
@@ -42,7 +43,7 @@ pub(crate) fn closest_to_convex(point: DVec3, part: &Convex) -> Closest {
             let ends = [a, b].map(|end| end.as_dvec3());
             let [s, t] = closest_on_segment(point, ends);
             let across =
-                (ends[1] - ends[0]).try_normalize().map_or(DVec3::Y, |axis| axis.any_orthonormal_vector());
+                (ends[1] - ends[0]).try_unit().map_or(DVec3::Y, |axis| axis.any_orthonormal_vector());
             Closest::around(point, ends[0] * s + ends[1] * t, radius, across)
         }
         _ => closest_on_faces(point, part, radius),
@@ -52,7 +53,7 @@ pub(crate) fn closest_to_convex(point: DVec3, part: &Convex) -> Closest {
 /// The closest point of a triangle without thickness; in it, the normal is the triangle's own.
 pub(crate) fn closest_to_triangle(point: DVec3, corners: [Vec3; 3]) -> Closest {
     let [a, b, c] = corners.map(|corner| corner.as_dvec3());
-    let normal = (b - a).cross(c - a).normalize_or(DVec3::Y);
+    let normal = (b - a).cross(c - a).unit_or(DVec3::Y);
     Closest::around(point, on_triangle(point, corners), 0.0, normal)
 }
 

@@ -6,6 +6,7 @@ use super::cast::{Motion, Rounded, first_touch};
 use super::closest::closest_to_convex;
 use super::fan;
 use crate::geometry::closest::closest_on_segment;
+use crate::norm::Norm;
 use crate::shape::Convex;
 
 /// The points origin + t · direction, 0 ≤ t ≤ max. The direction need not be unit; zero makes the ray a point.
@@ -60,7 +61,7 @@ pub(crate) fn ray_to_triangle(ray: &Ray, corners: [Vec3; 3]) -> Option<RayHit> {
     let [a, b, c] = corners.map(|corner| corner.as_dvec3() - ray.origin);
     let sides = [b.cross(c), c.cross(a), a.cross(b)].map(|area| area.dot(ray.direction));
     let is_within = sides.iter().all(|&side| side >= 0.0) || sides.iter().all(|&side| side <= 0.0);
-    let normal = (b - a).cross(c - a).normalize_or_zero();
+    let normal = (b - a).cross(c - a).unit_or_zero();
     let along = normal.dot(ray.direction);
     if !is_within || along == 0.0 {
         return None;
@@ -102,7 +103,7 @@ fn enter_ball(ray: &Ray, center: DVec3, radius: f64) -> Option<Entry> {
         return None;
     }
     let t = middle - (depth_squared / length_squared).sqrt();
-    Some(Entry::At(RayHit { t, normal: (from + ray.direction * t).normalize_or(DVec3::Y) }))
+    Some(Entry::At(RayHit { t, normal: (from + ray.direction * t).unit_or(DVec3::Y) }))
 }
 
 /// A capsule is a pipe between two balls: of the places where these are entered the first.
@@ -170,7 +171,7 @@ fn enter_flat(ray: &Ray, part: &Convex) -> Option<RayHit> {
 fn enter_rounded(ray: &Ray, part: &Convex) -> Option<RayHit> {
     let point = Rounded { corners: &[Vec3::ZERO], radius: 0.0 };
     // A time of 1 is the end of the ray, which may be infinitely far.
-    let max = ray.max.min(1e9 / ray.direction.length().max(f64::MIN_POSITIVE));
+    let max = ray.max.min(1e9 / ray.direction.norm().max(f64::MIN_POSITIVE));
     let moving = Motion::translation(point, ray.origin, DQuat::IDENTITY, ray.direction * max);
     let fixed = Motion::translation(Rounded::of(part), DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO);
     first_touch(&moving, &fixed, 0.0).map(|touch| RayHit { t: touch.time * max, normal: -touch.at.normal })

@@ -8,6 +8,7 @@ use super::descend::SphereHierarchy;
 use crate::Error;
 use crate::geometry::Sphere;
 use crate::geometry::{SupportPoints, smallest_enclosing_sphere};
+use crate::norm::Norm;
 
 /// A sphere tree for bodies that keep their shape. It holds no positions, so all bodies of one shape share it; each
 /// has its own [`WrappedSpheres`], and [`WrappedTree::pose`] puts the two and the particles together.
@@ -112,7 +113,7 @@ impl WrappedTree {
             let center = self.sphere(node, positions).center;
             let rest_radius = self.nodes[node].rest_radius;
             for &particle in particles {
-                let distance = center.distance(positions[particle as usize]);
+                let distance = center.distance_to(positions[particle as usize]);
                 if distance > rest_radius {
                     needed = needed.max((distance - rest_radius) / rest_radius);
                 }

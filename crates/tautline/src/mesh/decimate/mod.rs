@@ -12,6 +12,7 @@ use glam::{DVec3, Vec3};
 
 use super::{HalfEdgeMesh, TriMesh};
 use crate::error::{Error, all_coordinates};
+use crate::norm::Norm;
 pub use deviation::surface_deviation;
 use patch::Patch;
 use quadric::Quadric;
@@ -130,10 +131,10 @@ impl Collapse {
 
 /// Where the squared distances from all planes are least: of the whole space, or else of the ends and the middle.
 fn best_place(quadric: &Quadric, p: DVec3, q: DVec3) -> (Vec3, f64) {
-    let length = p.distance(q);
+    let length = p.distance_to(q);
     let middle = (p + q) / 2.0;
     // In a plane or along a straight edge there are many such places, and rounding would choose one far away.
-    let near = |place: &DVec3| place.distance(middle) <= 2.0 * length;
+    let near = |place: &DVec3| place.distance_to(middle) <= 2.0 * length;
     let free = quadric.lowest(middle).filter(near);
     let places = free.map_or([p, q, middle], |place| [place; 3]);
     let costs = places.map(|place| (place.as_vec3(), quadric.at(place.as_vec3().as_dvec3())));

@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use crate::mesh::TriMesh;
+use crate::norm::Norm;
 
 /// The least cosine between the normals of a triangle before and after.
 const LEAST_TURN: f64 = 0.3;
@@ -118,5 +119,5 @@ fn is_like(before: [Vec3; 3], after: [Vec3; 3]) -> bool {
     let [p, q, r] = after;
     let longest_squared =
         f64::from(p.distance_squared(q).max(q.distance_squared(r)).max(r.distance_squared(p)));
-    old.dot(new) > LEAST_TURN * old.length() * new.length() && new.length() > 2.0 * THINNEST * longest_squared
+    old.dot(new) > LEAST_TURN * old.norm() * new.norm() && new.norm() > 2.0 * THINNEST * longest_squared
 }

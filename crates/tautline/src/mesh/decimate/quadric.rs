@@ -4,6 +4,8 @@ use std::ops::{Add, AddAssign};
 
 use glam::{DMat3, DVec3};
 
+use crate::norm::Norm;
+
 /// What the distance from a triangle's own middle counts, as a share of that from its plane: it keeps the triangles of
 /// flat and straight places round.
 const KEEP_PLACE: f64 = 1e-4;
@@ -27,8 +29,8 @@ impl Default for Quadric {
 impl Quadric {
     pub(super) fn of_triangle([p, q, r]: [DVec3; 3]) -> Self {
         let normal = (q - p).cross(r - p);
-        let area = normal.length() / 2.0;
-        let normal = normal.normalize_or_zero();
+        let area = normal.norm() / 2.0;
+        let normal = normal.unit_or_zero();
         let middle = (p + q + r) / 3.0;
         let outer = DMat3::from_cols(normal * normal.x, normal * normal.y, normal * normal.z);
         let a = (outer + DMat3::from_diagonal(DVec3::splat(KEEP_PLACE))) * area;

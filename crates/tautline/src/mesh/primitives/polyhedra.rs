@@ -5,6 +5,7 @@ use glam::{DVec3, Vec3, dvec3};
 use super::{length, surface};
 use crate::Error;
 use crate::mesh::TriMesh;
+use crate::norm::Norm;
 
 /// (1 + √5) / 2.
 const GOLDEN_RATIO: f64 = 1.618_033_988_749_895;
@@ -129,7 +130,7 @@ pub(super) fn icosahedron_corners(radius: f64) -> Vec<DVec3> {
 
 /// Corners of a regular solid, which are equally far from the origin, brought to this radius.
 fn on_sphere(corners: &[[f64; 3]], radius: f64) -> Vec<DVec3> {
-    let scale = radius / DVec3::from(corners[0]).length();
+    let scale = radius / DVec3::from(corners[0]).norm();
     corners.iter().map(|&corner| DVec3::from(corner) * scale).collect()
 }
 

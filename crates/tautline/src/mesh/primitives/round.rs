@@ -8,6 +8,7 @@ use super::polyhedra::{ICOSAHEDRON_FACES, icosahedron_corners};
 use super::{at_least_three, at_least_two, length, quad, surface};
 use crate::Error;
 use crate::mesh::{HalfEdgeMesh, TriMesh};
+use crate::norm::Norm;
 
 /// Most subdivisions of an [`icosphere`]: 163 842 vertices.
 const MAX_SUBDIVISIONS: u32 = 7;
@@ -179,7 +180,7 @@ fn subdivide(
     let mesh = HalfEdgeMesh::from_triangles(positions.len(), triangles)?;
     for [a, b] in mesh.edges() {
         let sum = positions[a as usize] + positions[b as usize];
-        positions.push(sum * (radius / sum.length()));
+        positions.push(sum * (radius / sum.norm()));
     }
     let mut quarters = Vec::with_capacity(4 * triangles.len());
     for &[a, b, c] in triangles {

@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::boxes::Aabb;
 use super::predicates::{Face, Tet, faces_of, reversed};
+use crate::norm::Norm;
 
 /// Tetrahedra placed so far, and the closed surface around the rest.
 pub(super) struct Filling {
@@ -133,7 +134,7 @@ impl Filling {
         let (mut solid, voids): (Vec<_>, Vec<_>) = parts.drain(..).partition(|faces| volume(faces) > 0.0);
         for void in voids {
             let around = bounds(&void);
-            let size = |faces: &BTreeSet<Face>| (bounds(faces).max - bounds(faces).min).length();
+            let size = |faces: &BTreeSet<Face>| (bounds(faces).max - bounds(faces).min).norm();
             let containing = solid.iter_mut().filter(|faces| bounds(faces).contains(&around));
             if let Some(faces) = containing.min_by(|a, b| size(a).total_cmp(&size(b))) {
                 faces.extend(void);

@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::Tetrahedra;
 use super::predicates::{Face, canonical, face_of, faces_of, orient, reversed};
 use crate::mesh::TriMesh;
+use crate::norm::Norm;
 
 /// Figures of how well shaped tetrahedra are: what is thin is badly conditioned, and stiffer or softer than it should be.
 /// Without any tetrahedra the means and the worst are not finite.
@@ -69,7 +70,7 @@ impl Tetrahedra {
     fn dihedral_cosines(&self, tet: &[u32; 4]) -> impl Iterator<Item = f64> {
         let normals = [0, 1, 2, 3].map(|i| {
             let [a, b, c] = face_of(tet, i).map(|v| self.points[v as usize].as_dvec3());
-            (b - a).cross(c - a).normalize_or_zero()
+            (b - a).cross(c - a).unit_or_zero()
         });
         // Outward normals: the dihedral angle is what they lack to a half turn.
         (0..4)

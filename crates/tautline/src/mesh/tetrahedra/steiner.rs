@@ -7,6 +7,7 @@ use glam::DVec3;
 
 use super::filling::{Cavity, Filling};
 use super::predicates::{Face, Tet, orient, tet_on};
+use crate::norm::Norm;
 
 /// Steps of the search for a point that sees all faces.
 const KERNEL_STEPS: u32 = 2000;
@@ -88,10 +89,10 @@ fn kernel_point(points: &[DVec3], faces: &BTreeSet<Face>) -> Option<DVec3> {
     let planes: Vec<(DVec3, DVec3)> = faces
         .iter()
         .map(|f| f.map(|v| points[v as usize]))
-        .map(|[a, b, c]| ((b - a).cross(c - a).normalize_or_zero(), a))
+        .map(|[a, b, c]| ((b - a).cross(c - a).unit_or_zero(), a))
         .collect();
     let mut p = planes.iter().map(|plane| plane.1).sum::<DVec3>() / planes.len() as f64;
-    let size = planes.iter().map(|plane| plane.1.distance(p)).fold(0.0, f64::max);
+    let size = planes.iter().map(|plane| plane.1.distance_to(p)).fold(0.0, f64::max);
     let mut best = (0.0, None);
     for k in 0..KERNEL_STEPS {
         let above = planes.iter().map(|&(normal, a)| (normal.dot(p - a), normal));
@@ -111,8 +112,8 @@ pub(super) fn seed(points: &mut Vec<DVec3>, surface: &BTreeSet<Face>, faces: &[F
     for &face in faces {
         let middle = face.iter().map(|&v| points[v as usize]).sum::<DVec3>() / 3.0;
         let point = chord(points, surface, face, share).as_vec3().as_dvec3();
-        let apart = 0.5 * point.distance(middle);
-        if points[first..].iter().all(|p| p.distance(point) > apart) {
+        let apart = 0.5 * point.distance_to(middle);
+        if points[first..].iter().all(|p| p.distance_to(point) > apart) {
             points.push(point);
         }
     }
@@ -121,7 +122,7 @@ pub(super) fn seed(points: &mut Vec<DVec3>, surface: &BTreeSet<Face>, faces: &[F
 /// The point at a share of the way from the face's middle, straight inwards, to the next face.
 fn chord(points: &[DVec3], faces: &BTreeSet<Face>, face: Face, share: f64) -> DVec3 {
     let [a, b, c] = face.map(|v| points[v as usize]);
-    let (middle, normal) = ((a + b + c) / 3.0, (b - a).cross(c - a).normalize_or_zero());
+    let (middle, normal) = ((a + b + c) / 3.0, (b - a).cross(c - a).unit_or_zero());
     middle - normal * (share * depth_below(points, faces, middle, -normal))
 }
 

@@ -5,6 +5,7 @@ use glam::{DVec3, Vec3};
 use super::piece::{Piece, Plane, bounds, excess};
 use crate::error::Error;
 use crate::mesh::{HalfEdgeMesh, TriMesh, tetrahedralise};
+use crate::norm::Norm;
 
 /// Along how many concave edges a piece is tried to be cut.
 const EDGES_TRIED: usize = 8;
@@ -77,13 +78,13 @@ impl Carving {
         let mut planes: Vec<Plane> = DVec3::AXES.map(|axis| Plane::through(middle, axis)).to_vec();
         for _ in 0..EDGES_TRIED.min(edges.len()) {
             let score =
-                |&(distance, edge): &(f64, &ConcaveEdge)| edge.weight * distance.min((high - low).length());
+                |&(distance, edge): &(f64, &ConcaveEdge)| edge.weight * distance.min((high - low).norm());
             let next = edges
                 .iter()
                 .fold(edges[0], |best, edge| if score(edge) > score(&best) { *edge } else { best });
             planes.extend(next.1.normals.map(|normal| Plane::through(next.1.middle, normal)));
             for (distance, edge) in &mut edges {
-                *distance = distance.min(edge.middle.distance(next.1.middle));
+                *distance = distance.min(edge.middle.distance_to(next.1.middle));
             }
         }
         planes
@@ -103,17 +104,17 @@ fn concave_edges(mesh: &TriMesh) -> Result<Vec<ConcaveEdge>, Error> {
     let mut edges = Vec::new();
     for hinge in HalfEdgeMesh::from_mesh(mesh)?.hinges() {
         let [a, b, c, d] = hinge.map(|vertex| mesh.positions[vertex as usize].as_dvec3());
-        let left = (b - a).cross(c - a).normalize_or_zero();
-        let right = (a - b).cross(d - b).normalize_or_zero();
+        let left = (b - a).cross(c - a).unit_or_zero();
+        let right = (a - b).cross(d - b).unit_or_zero();
         let bend = 1.0 - left.dot(right);
         // Less than a tenth of a degree is a matter of rounding.
         if bend < 1e-6 || left.dot(d - a) <= 0.0 {
             continue;
         }
         // The plane between the faces contains the edge and the mean of the normals.
-        let between = (b - a).cross(left + right).normalize_or_zero();
+        let between = (b - a).cross(left + right).unit_or_zero();
         let normals = [left, right, between];
-        edges.push(ConcaveEdge { middle: (a + b) * 0.5, normals, weight: bend * a.distance(b) });
+        edges.push(ConcaveEdge { middle: (a + b) * 0.5, normals, weight: bend * a.distance_to(b) });
     }
     Ok(edges)
 }

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::{Error, all_coordinates, within};
 use crate::geometry::manifold::Triangle;
 use crate::mesh::{HalfEdgeMesh, TriMesh};
+use crate::norm::Norm;
 use tree::{Tree, bounds};
 
 /// Cosine of the bend (5°) under which a ridge counts as flat.
@@ -130,7 +131,7 @@ impl TryFrom<TriMesh> for Surface {
 /// In f64, in which no triangle with an area has none.
 fn normal(corners: &[Vec3; 3]) -> DVec3 {
     let [a, b, c] = corners.map(|corner| corner.as_dvec3());
-    (b - a).cross(c - a).normalize_or_zero()
+    (b - a).cross(c - a).unit_or_zero()
 }
 
 /// Whether the surface bends outwards where a triangle ends in an edge, beyond which another one begins.

@@ -4,6 +4,7 @@ use glam::Vec3;
 
 use crate::body::Body;
 use crate::collision::{Contact, Patch};
+use crate::norm::Norm;
 use crate::particles::Particles;
 
 /// The particle of a body that separation moved furthest: its ordered list is the one to relax by.
@@ -77,7 +78,7 @@ fn relative_motion(contact: &Contact, particles: &Particles) -> Vec3 {
 /// normal correction (all of it: the contact sticks). The paper uses friction and omits the detail.
 fn friction(contact: &Contact, depth: f32, motion: Vec3) -> Vec3 {
     let slide = motion - contact.normal * contact.normal.dot(motion);
-    let (length, limit) = (slide.length(), contact.friction * depth);
+    let (length, limit) = (slide.norm(), contact.friction * depth);
     if length > limit { slide * (limit / length) } else { slide }
 }
 

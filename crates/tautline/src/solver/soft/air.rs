@@ -12,6 +12,7 @@ use super::SoftSolver;
 use super::points::{Points, get, set};
 use super::small_step::Timing;
 use crate::body::AirGrip;
+use crate::norm::Norm;
 
 /// How triangles stand in the air is looked at once in so many small steps.
 const EVERY: usize = 4;
@@ -69,7 +70,7 @@ impl Sail {
             let corners = triangle.map(|place| place as usize);
             let [a, b, c] = corners.map(|place| points.at(place));
             let doubled = (b - a).cross(c - a);
-            let size = doubled.length();
+            let size = doubled.norm();
             if size < 1e-30 {
                 continue;
             }
@@ -85,7 +86,7 @@ impl Sail {
 
 /// A |n·D| and A (n·D)(n |D| − D (n·D)/|D|) of an area A with the unit normal n past which air moves by D.
 fn exposure(normal: Vec3, area: f32, against: Vec3) -> (f32, Vec3) {
-    let (through, length) = (normal.dot(against), against.length());
+    let (through, length) = (normal.dot(against), against.norm());
     if length < 1e-30 {
         return (0.0, Vec3::ZERO);
     }
@@ -102,8 +103,8 @@ fn change(against: Vec3, slowed: f32, across: Vec3) -> Vec3 {
     }
     let left = against - dragged;
     let turned = left - across;
-    let size = turned.length();
-    let turned = if size > 0.0 { turned * (left.length() / size) } else { left };
+    let size = turned.norm();
+    let turned = if size > 0.0 { turned * (left.norm() / size) } else { left };
     dragged + (left - turned)
 }
 

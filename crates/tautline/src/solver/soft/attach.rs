@@ -14,6 +14,7 @@ use super::solid::Solid;
 use super::touch::Touch;
 use crate::attachment::{Attached, Attachments, End};
 use crate::body::Body;
+use crate::norm::Norm;
 use crate::particles::Particles;
 
 /// How many times heavier a particle gets that is held to what does not move, …
@@ -260,7 +261,7 @@ impl Tie {
         if self.compliance == 0.0 {
             // Of what was apart before the small step a part may stay so.
             let before = gap - (motion_b - motion_a);
-            gap -= before * (1.0 - (moment.recovery / before.length().max(1e-30)).min(1.0));
+            gap -= before * (1.0 - (moment.recovery / before.norm().max(1e-30)).min(1.0));
         }
         let impulse = (mobility * (1.0 / size)).inverse() * ((gap - self.multiplier * softness) / size);
         self.multiplier += impulse;

@@ -11,6 +11,7 @@ use super::patch::Cone;
 use super::points::{Coordinates, Points, get};
 use super::tile::{Bounds, MOST_EIGHTS, Tile, inside};
 use crate::constraint::Stick;
+use crate::norm::Norm;
 use crate::simd::{Lanes, Vec3x8};
 use glam::Vec3;
 
@@ -245,7 +246,7 @@ impl Meetings {
     /// How far a particle of one tile can have moved against one of the other since the last look, in m.
     fn relative_motion(&self, a: usize, b: usize) -> f32 {
         let (a, b) = (&self.motions[a], &self.motions[b]);
-        (a.high - b.low).abs().max((b.high - a.low).abs()).length()
+        (a.high - b.low).abs().max((b.high - a.low).abs()).norm()
     }
 
     #[inline(always)]

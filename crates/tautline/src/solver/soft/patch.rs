@@ -5,6 +5,7 @@ use glam::Vec3;
 use super::grid::Grid;
 use super::points::Points;
 use super::tile::Tile;
+use crate::norm::Norm;
 use crate::simd::{LANES, Lanes, Vec3x8};
 
 /// The directions that a tile faces: a mean, and how far from it any of its cells faces.
@@ -41,7 +42,7 @@ pub(super) fn cone_of<L: Lanes>(grid: &Grid, tile: &Tile, points: &Points) -> Co
         sum = sum + *normal;
     }
     let axis = total(sum);
-    let length = axis.length();
+    let length = axis.norm();
     if length < 1e-6 {
         return Cone::ALL;
     }

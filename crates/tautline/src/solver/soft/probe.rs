@@ -3,6 +3,7 @@
 use glam::{DVec3, Mat3, Vec3};
 
 use crate::geometry::query::closest_to_convex;
+use crate::norm::Norm;
 use crate::shape::{Convex, Face};
 use crate::simd::{LANES, Lanes, Row, Vec3x8};
 
@@ -204,7 +205,7 @@ fn largest<L: Lanes>(points: Vec3x8<L>) -> Vec3 {
 fn from_triangle<L: Lanes>(points: Vec3x8<L>, corners: &[Vec3; 3]) -> Vec3x8<L> {
     let [a, b, c] = *corners;
     let across = (b - a).cross(c - a);
-    let normal = Vec3x8::<L>::splat(across.normalize_or(Vec3::Y));
+    let normal = Vec3x8::<L>::splat(across.unit_or(Vec3::Y));
     let mut over = L::splat(1.0).greater(L::splat(0.0));
     let (mut least, mut nearest) = (L::splat(f32::MAX), Vec3x8::<L>::zero());
     for (from, to) in [(a, b), (b, c), (c, a)] {

@@ -4,6 +4,7 @@ use super::SoftSolver;
 use super::piece::Piece;
 use super::tile::Bounds;
 use crate::body::Body;
+use crate::norm::Norm;
 use crate::particles::Particles;
 use crate::rest::note_drift;
 use crate::settings::Sleep;
@@ -134,7 +135,7 @@ fn moves(body: &Body, particles: &Particles, sleep: Sleep) -> bool {
         return body.is_awake() && body.rest.still_for < sleep.seconds / (WAKING_SPEED * WAKING_SPEED);
     }
     let reach = WAKING_SPEED * sleep.speed * body.displacement_time();
-    body.is_awake() && particles.displacement[body.particles.clone()].iter().any(|d| d.length() > reach)
+    body.is_awake() && particles.displacement[body.particles.clone()].iter().any(|d| d.norm() > reach)
 }
 
 /// The box around a body and how far it touches, in m.

@@ -3,6 +3,7 @@
 use super::points::{Coordinates, Moving, Points, get, set};
 use super::stick::{Span, SpanAt, Spans, relax_spans};
 use super::thread::{Pivot, REGULARISATION, Threads};
+use crate::norm::Norm;
 use crate::simd::{LANES, Lanes, Row};
 
 /// A rope among the points: its particles stand one after another.
@@ -113,7 +114,7 @@ impl Bundle {
         let at = |knot: usize| get(&self.position, knot * LANES + lane);
         let is_near = |stick: usize| {
             let [low, high, compliance] = &self.spans[stick];
-            let length = at(stick).distance(at(stick + 1));
+            let length = at(stick).distance_to(at(stick + 1));
             let is_in = length > low.0[lane] * (1.0 - NEAR) && length < high.0[lane] * (1.0 + NEAR);
             is_in && compliance.0[lane] == 0.0
         };

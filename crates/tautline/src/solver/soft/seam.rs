@@ -2,6 +2,7 @@
 
 use super::points::{Points, get};
 use crate::constraint::Stick;
+use crate::norm::Norm;
 
 /// The speed at which ends of a seam are drawn together, in m/s.
 const SPEED: f32 = 1.0;
@@ -28,7 +29,7 @@ impl Seams {
             let places = [stitch.a, stitch.b].map(|place| place as usize);
             let [wa, wb] = places.map(|place| points.inverse_mass[place]);
             let between = get(&points.position, places[1]) - get(&points.position, places[0]);
-            let length = between.length();
+            let length = between.norm();
             if wa + wb > 0.0 && length > stitch.rest_length {
                 let pull = between * ((length - stitch.rest_length) / (length * (wa + wb)));
                 points.shift(places[0], pull * wa);

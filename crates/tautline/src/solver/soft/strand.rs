@@ -7,6 +7,7 @@ use glam::Vec3;
 
 use super::points::Points;
 use super::tile::{Bounds, Tile};
+use crate::norm::Norm;
 use crate::simd::{Lanes, Vec3x8};
 
 /// A segment of a rope.
@@ -201,7 +202,7 @@ impl Near {
         let weights = [[1.0 - share_a, share_a], [1.0 - share_b, share_b]];
         let mix = |ends: [Vec3; 2], weights: [f32; 2]| ends[0] * weights[0] + ends[1] * weights[1];
         let gap = mix(ends_b, weights[1]) - mix(ends_a, weights[0]);
-        let length = gap.length();
+        let length = gap.norm();
         if length >= 3.0 * self.distance {
             return false;
         }
@@ -209,11 +210,8 @@ impl Near {
             - mix(a.map(|place| points.motion(place)), weights[0]);
         let before = gap - slip;
         let has_passed = gap.dot(before) < 0.0;
-        let (normal, apart) = if has_passed {
-            (before.normalize_or(Vec3::Y), -length)
-        } else {
-            (gap.normalize_or(Vec3::Y), length)
-        };
+        let (normal, apart) =
+            if has_passed { (before.unit_or(Vec3::Y), -length) } else { (gap.unit_or(Vec3::Y), length) };
         let depth = self.distance - apart;
         let is_point = a[0] == a[1];
         let mass = |place: usize| points.inverse_mass[place];
@@ -229,7 +227,7 @@ impl Near {
             return false;
         }
         let across = slip - normal * slip.dot(normal);
-        let grip = (self.friction * depth / across.length().max(1e-9)).min(1.0);
+        let grip = (self.friction * depth / across.norm().max(1e-9)).min(1.0);
         // What is deeper than it moved in is moved out without velocity.
         let braked = depth.min((-slip.dot(normal)).max(0.0));
         let impulse = (normal * braked - across * grip) / mobility;

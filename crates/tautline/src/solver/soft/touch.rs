@@ -10,6 +10,7 @@ use super::points::Points;
 use super::probe::{Facet, Form, Probe, probe_triangles};
 use super::solid::{Matter, Solid, Stance, part_bounds};
 use super::tile::{Bounds, Tile};
+use crate::norm::Norm;
 use crate::shape::Surface;
 use crate::simd::{LANES, Lanes, Matrix3x8, Row, Vec3x8, column, read, write};
 
@@ -296,7 +297,7 @@ impl Touch {
                 mass + solid.inverse_mass + turned.dot(solid.inverse_inertia * turned)
             };
             let pressure = depth / mobility(normal);
-            let length = slip.length();
+            let length = slip.norm();
             let mut impulse = normal * pressure;
             if length > 1e-12 {
                 let direction = slip / length;

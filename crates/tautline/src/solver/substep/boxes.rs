@@ -7,6 +7,7 @@ use super::crew::{Crew, Earlier, Track};
 use super::lineup::Lineup;
 use crate::body::{Body, CollisionGroups, Motion, Rigid};
 use crate::collision::Aabb;
+use crate::norm::Norm;
 use crate::shape::Part;
 use crate::simd::LANES;
 
@@ -123,7 +124,7 @@ impl Boxed {
         // The same sum whichever of the two asks.
         let apart = (self.reach + self.room) + (other.reach + other.room);
         // Not `<=`: what is not a number may be anywhere.
-        let is_far = self.center.distance(other.center) > apart;
+        let is_far = self.center.distance_to(other.center) > apart;
         !is_far
             && self.groups.collide_with(other.groups)
             && separated.binary_search(&[self.body.min(other.body), self.body.max(other.body)]).is_err()

@@ -16,6 +16,7 @@ use crate::geometry::manifold::{
     MAX_POINTS, Manifold, Memory, Placement, Scratch, collide, collide_plane, collide_triangle,
 };
 use crate::geometry::query::Rounded;
+use crate::norm::Norm;
 use crate::shape::{Convex, Shape, Surface};
 use crate::simd::{Kernel, Lanes, Row};
 
@@ -95,15 +96,15 @@ impl<'a> Scene<'a> {
     /// How far the points of a body move in a whole step at most, in m.
     pub(super) fn motion(&self, body: u32) -> f32 {
         let placed = self.placed(body);
-        placed.motion.length() + placed.turning
+        placed.motion.norm() + placed.turning
     }
 
     /// Whether the balls around two bodies are further apart than contacts are looked for.
     #[inline(always)]
     fn are_apart(&self, a: &Placed, b: &Placed) -> bool {
         let (between, approach) = (b.center - a.center, a.motion - b.motion);
-        let distance = between.length();
-        let closing = (between.dot(approach) / distance).max(0.0) + SIDEWAYS * approach.length();
+        let distance = between.norm();
+        let closing = (between.dot(approach) / distance).max(0.0) + SIDEWAYS * approach.norm();
         let margin = self.margin + 0.5 * (a.turning + b.turning) + LOOK_AHEAD * closing;
         distance > a.reach + b.reach + margin
     }
@@ -225,7 +226,7 @@ fn collide_with_triangle<L: Lanes>(
     let (mut b_in_a, approach, base) = relative(scene, a, b);
     let triangle = surface.triangle(detail.part_b);
     let closing = -(b_in_a.rotation * triangle.normal).dot(approach);
-    let margin = base + LOOK_AHEAD * (closing.max(0.0) + SIDEWAYS * approach.length());
+    let margin = base + LOOK_AHEAD * (closing.max(0.0) + SIDEWAYS * approach.norm());
     let mut is_foreseen = false;
     loop {
         let memory = &mut detail.memory;
@@ -253,9 +254,9 @@ fn collide_parts<L: Lanes>(
     let (mut b_in_a, approach, base) = relative(scene, a, b);
     let axis = detail.memory.axis;
     let closing = if axis == Vec3::ZERO {
-        approach.length()
+        approach.norm()
     } else {
-        axis.dot(approach).max(0.0) + SIDEWAYS * approach.length()
+        axis.dot(approach).max(0.0) + SIDEWAYS * approach.norm()
     };
     let margin = base + LOOK_AHEAD * closing;
     let mut is_foreseen = false;

@@ -11,6 +11,7 @@ use super::lineup::NOBODY;
 use super::pairs::Pair;
 use crate::geometry::manifold::{Manifold, Placement};
 use crate::geometry::query::{Motion, Rounded, first_touch};
+use crate::norm::Norm;
 
 /// Parts nearer than this touch, in m.
 const APART: f32 = 2e-4;
@@ -41,7 +42,7 @@ impl Scene<'_> {
         }
         let solid = [pair.a, pair.b].into_iter().filter_map(|body| self.shape(body));
         let solid = solid.filter(|shape| shape.is_solid());
-        approach.length() > solid.map(|shape| shape.inner_radius()).fold(f32::INFINITY, f32::min)
+        approach.norm() > solid.map(|shape| shape.inner_radius()).fold(f32::INFINITY, f32::min)
     }
 
     /// Where b is in the frame of a when they first touch in this step, if nothing turns them from their ways.

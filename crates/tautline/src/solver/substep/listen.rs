@@ -13,6 +13,7 @@ use super::group::{Groups, Lane};
 use super::lineup::Lineup;
 use super::pairs::{Pair, Pairs};
 use crate::body::Body;
+use crate::norm::Norm;
 use crate::simd::{LANES, Row};
 
 /// Bodies that have touched and are no further apart than this still do, in m.
@@ -167,7 +168,7 @@ impl Press {
 
     /// Sums become means.
     fn normalise(&mut self) {
-        self.normal = self.normal.normalize_or(Vec3::Y);
+        self.normal = self.normal.unit_or(Vec3::Y);
         self.point /= self.impulse.max(f32::MIN_POSITIVE);
     }
 }

@@ -5,6 +5,7 @@ use glam::Vec3;
 use super::way::Way;
 use crate::geometry::manifold::Triangle;
 use crate::geometry::query::{Rounded, Touch, first_touch};
+use crate::norm::Norm;
 use crate::shape::{Convex, Shape};
 
 /// Bodies that move less than this share of their inner radius against each other do not go through each other.
@@ -40,7 +41,7 @@ impl Other<'_> {
             Self::Part(_) => (Vec3::ZERO, reach),
             Self::Triangle(triangle) => {
                 let center = mean(&triangle.corners);
-                (center, triangle.corners.iter().map(|p| p.distance(center)).fold(0.0, f32::max))
+                (center, triangle.corners.iter().map(|p| p.distance_to(center)).fold(0.0, f32::max))
             }
         }
     }
@@ -122,10 +123,9 @@ impl Candidate<'_> {
 
     /// Whether they hardly move against each other, for their size. What turns is as large as it was but for its corners.
     fn is_slow(&self, a: &Way, b: &Way) -> bool {
-        let [stir_a, stir_b] =
-            [(a, 0), (b, 1)].map(|(way, i)| way.turn.length() * f64::from(self.corners[i]));
+        let [stir_a, stir_b] = [(a, 0), (b, 1)].map(|(way, i)| way.turn.norm() * f64::from(self.corners[i]));
         let least = f64::from(self.inner_radius);
-        (a.shift - b.shift).length() + stir_a + stir_b < FAST_TOGETHER * least
+        (a.shift - b.shift).norm() + stir_a + stir_b < FAST_TOGETHER * least
     }
 
     /// Whether balls around both pass each other.
@@ -134,10 +134,10 @@ impl Candidate<'_> {
         let [place_a, place_b] =
             [(a, at_a), (b, at_b)].map(|(way, at)| way.center + way.rotation * at.as_dvec3());
         // A point of a body that turns leaves its straight way.
-        let stray = f64::from(at_b.length()) * b.turn.length();
+        let stray = f64::from(at_b.norm()) * b.turn.norm();
         let (between, closing) = (place_b - place_a, a.shift - b.shift);
         let time = (between.dot(closing) / closing.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-        (between - closing * time).length() > f64::from(reach_a) + f64::from(reach_b) + stray
+        (between - closing * time).norm() > f64::from(reach_a) + f64::from(reach_b) + stray
     }
 
     /// Whether the middle of a starts behind the triangle: triangles stop what comes from the front.

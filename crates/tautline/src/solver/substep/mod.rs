@@ -40,6 +40,7 @@ use serde::{Deserialize, Serialize};
 use crate::body::{Body, Frame, Motion, Substance};
 use crate::geometry::manifold;
 use crate::joint::{Joints, State as JointState};
+use crate::norm::Norm;
 use crate::parallel;
 use crate::particles::Particles;
 use crate::settings::Settings;
@@ -301,7 +302,7 @@ impl RigidSolver {
         let aim = Aim {
             softness: self.softness,
             is_biased: true,
-            kick: f64::from(settings.gravity.length() * h * h),
+            kick: f64::from(settings.gravity.norm() * h * h),
         };
         self.stacks.solve(aim, &mut self.groups, &mut self.crew);
         self.groups.pass(Pass::Biased, &self.softness, &mut self.crew.velocities, instructions);
@@ -330,7 +331,7 @@ impl RigidSolver {
             substeps,
             gravity: settings.gravity,
             damping: settings.damping,
-            margin: MARGIN + settings.gravity.length() * step * step,
+            margin: MARGIN + settings.gravity.norm() * step * step,
             instructions: settings.instructions,
         }
     }

@@ -22,6 +22,7 @@ use super::lineup::NOBODY;
 use super::meet::Candidate;
 use super::pairs::{Detail, Pair};
 use super::way::Way;
+use crate::norm::Norm;
 use crate::simd::{Instructions, Kernel, LANES, Lanes, Vec3x8, run};
 
 /// The sizes of cores, as shares of that of their part; those of what joints hold; and of that on the way of a whole step.
@@ -160,7 +161,7 @@ impl RigidSolver {
             }
             let change = blocked.normal * (sign * approach * weights[i] / (weights[0] + weights[1]));
             row.iter_mut().zip(change.to_array()).for_each(|(number, change)| *number += change);
-            let turn = Vec3::new(row[4] / root[0], row[5] / root[1], row[6] / root[2]).length();
+            let turn = Vec3::new(row[4] / root[0], row[5] / root[1], row[6] / root[2]).norm();
             let kept = (MOST_TURN / turn.max(MOST_TURN)).min(1.0);
             row[4..7].iter_mut().for_each(|number| *number *= kept);
         }

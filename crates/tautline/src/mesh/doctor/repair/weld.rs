@@ -6,6 +6,7 @@ use glam::{DVec3, Vec3};
 
 use super::Action;
 use super::patient::Patient;
+use crate::norm::Norm;
 
 /// The distance of vertices that become one, as a share of the mesh's diagonal.
 const SHARE: f64 = 1e-6;
@@ -20,7 +21,7 @@ pub(super) fn weld(patient: &mut Patient, distance: Option<f32>) {
     let mut kept: BTreeMap<[i64; 3], Vec<u32>> = BTreeMap::new();
     for vertex in candidates {
         let position = positions[vertex as usize].as_dvec3();
-        let near = |&other: &u32| positions[other as usize].as_dvec3().distance(position) <= distance;
+        let near = |&other: &u32| positions[other as usize].as_dvec3().distance_to(position) <= distance;
         let around = cells_around(position, distance);
         match around.iter().filter_map(|cell| kept.get(cell)).flatten().copied().filter(near).min() {
             Some(other) => onto[vertex as usize] = other,
@@ -57,7 +58,7 @@ fn diagonal(positions: &[Vec3]) -> f64 {
     let finite = positions.iter().filter(|position| position.is_finite()).map(|position| position.as_dvec3());
     let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let (low, high) = finite.fold(nothing, |(low, high), p| (low.min(p), high.max(p)));
-    if low.x <= high.x { low.distance(high) } else { 0.0 }
+    if low.x <= high.x { low.distance_to(high) } else { 0.0 }
 }
 
 /// The cell of a grid as wide as the distance. Out of range, many places share a cell: that costs time only.

@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use crate::joint::{Kind, MOST_ROWS, Placed};
+use crate::norm::Norm;
 
 /// How a coordinate changes: n·(v_body − v_base) + b·ω_body − a·ω_base.
 #[derive(Debug, Clone, Copy, Default)]
@@ -41,7 +42,7 @@ pub(super) fn rows(kind: &Kind, base: &Placed, body: &Placed) -> [JointRow; MOST
     match kind {
         Kind::Ball { .. } => {
             let own = body.basis.x_axis;
-            let swing = axes[0].cross(own).try_normalize().map_or(none, JointRow::about);
+            let swing = axes[0].cross(own).try_unit().map_or(none, JointRow::about);
             // The rate of the twist is ω·(a + b) / (1 + a·b).
             let (sum, scale) = (axes[0] + own, 1.0 + axes[0].dot(own));
             let twist = if scale > FACING_AWAY { JointRow::about(sum / scale) } else { none };
@@ -52,7 +53,7 @@ pub(super) fn rows(kind: &Kind, base: &Placed, body: &Placed) -> [JointRow; MOST
         Kind::Slider(_) => [y, z, turn_x, turn_y, turn_z, x],
         Kind::Distance { .. } => {
             let along = |normal| JointRow::along(normal, base, body);
-            [base.to(body).try_normalize().map_or(none, along), none, none, none, none, none]
+            [base.to(body).try_unit().map_or(none, along), none, none, none, none, none]
         }
     }
 }

@@ -12,6 +12,7 @@ use super::super::held::Held;
 use super::super::joint::Sets;
 use super::super::lineup::{Lineup, NOBODY};
 use super::super::pairs::Pairs;
+use crate::norm::Norm;
 
 /// The most bodies of a stack, and pairs of parts.
 const MOST_BODIES: usize = 64;
@@ -169,7 +170,7 @@ fn is_delicate(contacts: &[Touch], pairs: &Pairs) -> bool {
     let bears = |held: &Held| held.points().any(|point| point.normal_impulse() > 0.0);
     let is_strained = |held: &Held| {
         held.points().any(|point| {
-            let (normal, friction) = (point.normal_impulse(), point.tangent_impulse().length());
+            let (normal, friction) = (point.normal_impulse(), point.tangent_impulse().norm());
             normal == 0.0 || friction > STRAINED * held.friction() * normal
         })
     };
