@@ -1,7 +1,8 @@
 //! Contacts in batches of eight pairs that share no body.
 //!
 //! Pairs are coloured greedily in their order: of the colours that neither body has yet, each takes the lowest. A
-//! batch holds pairs of one colour and one number of points. What cannot move takes no colour.
+//! batch holds pairs of one colour and, but for what is left over, one number of points. What cannot move takes no
+//! colour.
 
 use crate::simd::{LANES, Row};
 
@@ -41,8 +42,9 @@ pub(super) struct Batch {
     pub(super) place_b: [u32; LANES],
     /// Where its points begin.
     pub(super) first: u32,
-    /// How many points each of its pairs has.
+    /// How many points its pairs have at most, and each of them.
     pub(super) points: u32,
+    pub(super) counts: [u8; LANES],
     /// Bits of the lanes whose pairs belong to stacks.
     pub(super) stacked: u32,
 }
@@ -52,6 +54,11 @@ impl Batch {
     #[inline(always)]
     pub(super) fn range(&self) -> std::ops::Range<usize> {
         self.first as usize..(self.first + self.points) as usize
+    }
+
+    /// Those of one of its pairs among all.
+    pub(super) fn range_of(&self, lane: usize) -> std::ops::Range<usize> {
+        self.first as usize..self.first as usize + usize::from(self.counts[lane])
     }
 }
 
@@ -97,10 +104,30 @@ pub(super) struct Colouring {
     used: Vec<u64>,
     /// The class of each pair: its colour and number of points.
     classes: Vec<u32>,
-    /// How many pairs each class has, then the number of its first batch.
-    counts: Vec<u32>,
+    slots: Vec<Slots>,
     /// The pairs that found no colour among the last 64.
     left: Vec<u32>,
+}
+
+/// Where the pairs of a class go, lane after lane: the first ones fill a batch of pairs with more points, which needs
+/// no rows of their own for them, the others batches of theirs.
+#[derive(Debug, Clone, Copy, Default)]
+struct Slots {
+    /// How many are still to be placed.
+    count: u32,
+    /// How many of them in another batch, and from which lane on: lanes are counted through all batches.
+    guests: u32,
+    guest_lane: u32,
+    lane: u32,
+}
+
+impl Slots {
+    fn next(&mut self) -> usize {
+        let lane = if self.guests > 0 { &mut self.guest_lane } else { &mut self.lane };
+        self.guests = self.guests.saturating_sub(1);
+        *lane += 1;
+        *lane as usize - 1
+    }
 }
 
 /// Colours in a round.
@@ -119,33 +146,17 @@ impl Colouring {
     ) {
         self.colour(pairs, range_length);
         batches.clear();
-        let count = self.counts.iter().map(|count| count.div_ceil(LANES as u32) as usize).sum();
-        reserve(batches, count);
-        let mut first = 0;
-        for (class, count) in self.counts.iter_mut().enumerate() {
-            let points = class as u32 % MOST_POINTS + 1;
-            let needed = count.div_ceil(LANES as u32);
-            *count = batches.len() as u32 * LANES as u32;
-            for _ in 0..needed {
-                batches.push(Batch {
-                    pairs: [NO_PAIR; LANES],
-                    a: [empty; LANES],
-                    b: [empty; LANES],
-                    place_a: [ground; LANES],
-                    place_b: [ground; LANES],
-                    first,
-                    points,
-                    stacked: 0,
-                });
-                first += points;
-            }
+        let count: u32 = self.slots.iter().map(|slots| slots.count.div_ceil(LANES as u32)).sum();
+        reserve(batches, count as usize);
+        let places = ([empty; LANES], [ground; LANES]);
+        for colour in self.slots.chunks_mut(MOST_POINTS as usize) {
+            share_out(colour, places, batches);
         }
         for (active, &class) in pairs.iter().zip(&self.classes) {
-            let next = &mut self.counts[class as usize];
-            let (batch, lane) = (*next as usize / LANES, *next as usize % LANES);
-            *next += 1;
-            let batch = &mut batches[batch];
+            let lane = self.slots[class as usize].next();
+            let (batch, lane) = (&mut batches[lane / LANES], lane % LANES);
             batch.pairs[lane] = active.pair;
+            batch.counts[lane] = active.points;
             (batch.a[lane], batch.b[lane]) = (active.a, active.b);
             (batch.place_a[lane], batch.place_b[lane]) = (active.place_a, active.place_b);
             batch.stacked |= u32::from(active.is_stacked) << lane;
@@ -157,7 +168,7 @@ impl Colouring {
         reserve(&mut self.classes, pairs.len());
         self.classes.resize(pairs.len(), 0);
         fit(&mut self.classes);
-        self.counts.clear();
+        self.slots.clear();
         self.left.clear();
         let mut todo: Option<Vec<u32>> = None;
         let mut base = 0;
@@ -194,10 +205,43 @@ impl Colouring {
         }
         let class = (base + colour) * MOST_POINTS + u32::from(pair.points) - 1;
         self.classes[index as usize] = class;
-        if self.counts.len() <= class as usize {
-            self.counts.resize(class as usize + 1, 0);
+        if self.slots.len() <= class as usize {
+            let colours = class / MOST_POINTS + 1;
+            self.slots.resize((colours * MOST_POINTS) as usize, Slots::default());
         }
-        self.counts[class as usize] += 1;
+        self.slots[class as usize].count += 1;
+    }
+}
+
+/// Adds empty batches for the classes of a colour, and tells these where their pairs go.
+fn share_out(classes: &mut [Slots], (empty, ground): ([u32; LANES], [u32; LANES]), batches: &mut Vec<Batch>) {
+    const WIDTH: u32 = LANES as u32;
+    // Free lanes of a batch of pairs with more points, and the first of them.
+    let (mut free, mut free_lane) = (0, 0);
+    for (points, class) in (1..=MOST_POINTS).rev().zip(classes.iter_mut().rev()) {
+        let left_over = class.count % WIDTH;
+        class.guests = left_over.min(free);
+        class.guest_lane = free_lane;
+        (free, free_lane) = (free - class.guests, free_lane + class.guests);
+        class.lane = batches.len() as u32 * WIDTH;
+        let own = class.count - class.guests;
+        for _ in 0..own.div_ceil(WIDTH) {
+            let first = batches.last().map_or(0, |batch: &Batch| batch.first + batch.points);
+            batches.push(Batch {
+                pairs: [NO_PAIR; LANES],
+                a: empty,
+                b: empty,
+                place_a: ground,
+                place_b: ground,
+                first,
+                points,
+                counts: [0; LANES],
+                stacked: 0,
+            });
+        }
+        if own % WIDTH > 0 {
+            (free, free_lane) = (WIDTH - own % WIDTH, class.lane + own);
+        }
     }
 }
 
@@ -232,7 +276,7 @@ mod tests {
             let mut moved = Vec::new();
             for lane in (0..LANES).filter(|&lane| batch.pairs[lane] != NO_PAIR) {
                 let active = pairs.iter().find(|active| active.pair == batch.pairs[lane]).unwrap();
-                assert_eq!(u32::from(active.points), batch.points);
+                assert!(u32::from(active.points) <= batch.points && active.points == batch.counts[lane]);
                 assert_eq!((active.a, active.b), (batch.a[lane], batch.b[lane]));
                 seen[active.pair as usize] += 1;
                 moved.push(active.a);

@@ -13,6 +13,7 @@ use crate::simd::{LANES, Lanes, Row, rows_at};
 use super::batch::{Batch, HeaderRows, PointRows};
 use super::contact::{Body, opening, push_apart, solve_friction};
 use super::held::MOST_POINTS;
+use super::prepare::OUT_OF_REACH;
 
 /// Eight pairs of which some have restitution.
 #[derive(Debug, Clone)]
@@ -37,8 +38,6 @@ struct BouncePoint {
 /// The slowest approach that bounces, in m/s; and how many substeps of gravity are added to it.
 const LEAST_SPEED: f32 = 0.02;
 const GRAVITY_STEPS: f32 = 2.0;
-/// Further than anything reaches in a substep, in m.
-const OUT_OF_REACH: f32 = 1e9;
 /// Most visits of the contacts of a blow that goes through several bodies.
 pub(super) const MOST_VISITS: usize = 32;
 /// How often the points of bodies that meet are visited in turn before these move: one visit would turn what lands flat.

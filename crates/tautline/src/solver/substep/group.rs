@@ -202,12 +202,12 @@ impl Groups {
     /// The rows of a contact, of which those of one lane are its own.
     pub(super) fn rows(&self, at: &Lane) -> (&HeaderRows, &[PointRows]) {
         let (group, batch) = self.batch_of(at);
-        (&group.headers[at.batch as usize], &group.points[batch.range()])
+        (&group.headers[at.batch as usize], &group.points[batch.range_of(at.lane())])
     }
 
     pub(super) fn rows_mut(&mut self, at: &Lane) -> (&mut HeaderRows, &mut [PointRows]) {
         let group = &mut self.groups[at.group as usize];
-        let range = group.batches[at.batch as usize].range();
+        let range = group.batches[at.batch as usize].range_of(at.lane());
         (&mut group.headers[at.batch as usize], &mut group.points[range])
     }
 

@@ -111,6 +111,7 @@ pub(super) fn fill<'a, L: Lanes>(
     let mut impulse = Vec3x8::<L>::zero();
     let (local_a, local_b) = (a.in_frame(&directions), b.in_frame(&directions));
     let between = b.center - a.center;
+    let counts = L::load(&Row(batch.counts.map(f32::from)));
     for (k, rows) in points.iter_mut().enumerate() {
         let (anchors, friction) = rows_of(&held, k);
         let (anchors, friction) = (L::gather(anchors), L::gather(friction));
@@ -138,9 +139,11 @@ pub(super) fn fill<'a, L: Lanes>(
             turn(&mut sum_b, jb, impulses[j] * b.response);
             impulse = impulse + directions[j] * impulses[j];
         }
-        masses[0].store(&mut rows.normal_mass);
-        masses[1].min(masses[2]).store(&mut rows.tangent_mass);
-        normal.dot(distance).store(&mut rows.separation);
+        // What a pair with fewer points does not have holds nothing.
+        let exists = counts.greater(L::splat(k as f32));
+        exists.and(masses[0]).store(&mut rows.normal_mass);
+        exists.and(masses[1].min(masses[2])).store(&mut rows.tangent_mass);
+        exists.select(normal.dot(distance), L::splat(OUT_OF_REACH)).store(&mut rows.separation);
         impulses[0].store(&mut rows.normal_impulse);
         for axis in 0..2 {
             impulses[axis + 1].store(&mut rows.tangent_impulses[axis]);
@@ -153,6 +156,9 @@ pub(super) fn fill<'a, L: Lanes>(
     L::scatter(sum_a, accumulated, &batch.a);
     L::scatter(sum_b, accumulated, &batch.b);
 }
+
+/// Further than anything reaches in a step, in m.
+pub(super) const OUT_OF_REACH: f32 = 1e9;
 
 /// Below any real one, in 1/kg: it keeps empty lanes finite.
 const LEAST_COMPLIANCE: f32 = 1e-25;

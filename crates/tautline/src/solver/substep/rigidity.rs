@@ -18,6 +18,8 @@ pub(super) const FASTEST: f32 = 0.5;
 /// From this ratio of its moments of inertia on a body is too fast sooner: a rotation that is off by ε turns ε of the
 /// angular momentum onto the axis of the least moment, and adds ε² times the ratio to the energy.
 const SLENDER: f32 = 16.0;
+/// Up to this |half| I₁/I₃ one iteration will do.
+const SLOWEST: f32 = 1e-4;
 /// From here on more energy than there was is not rounding.
 const ROUNDED: f32 = 1.0001;
 
@@ -103,6 +105,28 @@ fn is_too_fast<L: Lanes>(half: Vec3x8<L>, inertia: Vec3x8<L>) -> L {
     (fourth * fourth * largest.max(least * L::splat(SLENDER))).greater(least * L::splat(SLENDER))
 }
 
+/// ω h/2 − I⁻¹ (u × I u), from I⁻¹ and I.
+#[inline(always)]
+fn coupled<L: Lanes>(
+    half: Vec3x8<L>,
+    u: Vec3x8<L>,
+    is_too_fast: L,
+    [inverse, inertia]: &[Vec3x8<L>; 2],
+) -> Vec3x8<L> {
+    let coupling = u.cross(u.scale(*inertia)).scale(*inverse);
+    half - Vec3x8::select(is_too_fast, Vec3x8::zero(), coupling)
+}
+
+/// Whether all turn so slowly that the first iteration is exact: what is left of u is smaller by (|half| I₁/I₃)², and its
+/// real part differs from 1 by |half|²/2; both less than rounding.
+#[inline(always)]
+fn turns_slowly<L: Lanes>(half: Vec3x8<L>, inertia: Vec3x8<L>) -> bool {
+    let largest = inertia.x.max(inertia.y).max(inertia.z);
+    let least = inertia.x.min(inertia.y).min(inertia.z);
+    let bound = least * L::splat(SLOWEST);
+    (half.length_squared() * largest * largest).greater(bound * bound).bits() == 0
+}
+
 /// A rotation Q in a body's frame, as a unit quaternion.
 struct Turn<L> {
     imaginary: Vec3x8<L>,
@@ -116,14 +140,17 @@ impl<L: Lanes> Turn<L> {
     #[inline(always)]
     fn of(angular: Vec3x8<L>, inertia: Vec3x8<L>) -> Self {
         let one = L::splat(1.0);
-        let inverse = Vec3x8::new(one / inertia.x, one / inertia.y, one / inertia.z);
         let half = angular * L::splat(0.5);
         let is_too_fast = is_too_fast(half, inertia);
-        let mut u = half;
-        for _ in 0..ITERATIONS {
-            let coupling = u.cross(u.scale(inertia)).scale(inverse);
-            let coupling = Vec3x8::select(is_too_fast, Vec3x8::zero(), coupling);
-            u = (half - coupling) * (one / real_part(u));
+        let inverse = Vec3x8::new(one / inertia.x, one / inertia.y, one / inertia.z);
+        let moments = [inverse, inertia];
+        let mut u = coupled(half, half, is_too_fast, &moments);
+        if turns_slowly(half, inertia) {
+            return Self { imaginary: u, real: one, is_too_fast };
+        }
+        u = u * (one / real_part(half));
+        for _ in 1..ITERATIONS {
+            u = coupled(half, u, is_too_fast, &moments) * (one / real_part(u));
         }
         // Renormalised, so that it is a rotation also where the iteration has not ended.
         let real = real_part(u);
