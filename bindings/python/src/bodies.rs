@@ -204,6 +204,7 @@ impl Grid {
 ///     surface: A ``Grid``, or a mesh as (positions (n, 3) in m, triangles (m, 3)).
 ///     position: Where the surface's origin is put, in m.
 ///     rotation: About the surface's origin: a quaternion x, y, z, w.
+///     sag: How far the middle of a grid hangs below its corners where it is laid out, in m.
 ///     velocity: Of all particles, in m/s.
 ///     mass: In kg.
 ///     density: In kg/m², instead of a mass.
@@ -227,8 +228,8 @@ pub(crate) struct Cloth(tautline::Cloth);
 #[pymethods]
 impl Cloth {
     #[new]
-    #[pyo3(signature = (surface, *, position=None, rotation=None, velocity=None, mass=1.0, density=None, friction=0.5,
-        thickness=None, self_collision=true, bending_stiffness=None, compliance=None, shear_compliance=None,
+    #[pyo3(signature = (surface, *, position=None, rotation=None, sag=None, velocity=None, mass=1.0, density=None,
+        friction=0.5, thickness=None, self_collision=true, bending_stiffness=None, compliance=None, shear_compliance=None,
         strain_limit=None, drag=None, lift=None, pressure=None, tear_at=None, creep=None, pins=Vec::new(),
         seams=Vec::new()))]
     #[allow(clippy::too_many_arguments)] // Keywords, in Python.
@@ -236,6 +237,7 @@ impl Cloth {
         surface: &Bound<'_, PyAny>,
         position: Option<V3>,
         rotation: Option<Rotation>,
+        sag: Option<f32>,
         velocity: Option<V3>,
         mass: f32,
         density: Option<f32>,
@@ -255,7 +257,8 @@ impl Cloth {
         seams: Vec<(u32, u32)>,
     ) -> Outcome<Self> {
         type Change = fn(tautline::Cloth, f32) -> tautline::Cloth;
-        let wishes: [(Option<f32>, Change); 10] = [
+        let wishes: [(Option<f32>, Change); 11] = [
+            (sag, tautline::Cloth::sag),
             (density, tautline::Cloth::density),
             (thickness, tautline::Cloth::thickness),
             (bending_stiffness, tautline::Cloth::bending_stiffness),

@@ -264,6 +264,11 @@ fn problems_of_what_fabric_is_made_of_carry_the_path_of_their_field() {
             "[{cloth: {bending: 1, bending_stiffness: 1}}]",
             "bodies[0].cloth.bending_stiffness: there is bending",
         ),
+        ("[{cloth: {sag: -1}}]", "bodies[0].cloth.sag: -1 is not a finite number from 0"),
+        (
+            "[{cloth: {sag: 1, surface: {mesh: {positions: [[0, 0, 0], [1, 0, 0], [0, 1, 0]], triangles: [[0, 1, 2]]}}}}]",
+            "bodies[0].cloth.sag: only a grid",
+        ),
         ("[{cloth: {shear_compliance: 1}}]", "bodies[0].cloth.shear_compliance: it is of no use"),
         ("[{cloth: {strain_limit: -0.1}}]", "bodies[0].cloth.strain_limit: -0.1 is not a number from 0"),
         ("[{cloth: {tear_at: 0.1}}]", "bodies[0].cloth.tear_at: it is of no use without a compliance"),

@@ -37,7 +37,8 @@ type Change<T> = (&'static str, fn(T) -> T);
 
 #[test]
 fn every_field_of_a_cloth_is_the_engines() {
-    let changes: [Change<Cloth>; 12] = [
+    let changes: [Change<Cloth>; 13] = [
+        ("sag: 0.1", |cloth| cloth.sag(0.1)),
         ("density: 0.4", |cloth| cloth.density(0.4)),
         ("masses: [1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16]", |cloth| {
             cloth.masses((1..=16u8).map(f32::from).collect())

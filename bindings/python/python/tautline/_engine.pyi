@@ -250,6 +250,7 @@ class Cloth:
         surface: A ``Grid``, or a mesh as (positions (n, 3) in m, triangles (m, 3)).
         position: Where the surface's origin is put, in m.
         rotation: About the surface's origin: a quaternion x, y, z, w.
+        sag: How far the middle of a grid hangs below its corners where it is laid out, in m.
         velocity: Of all particles, in m/s.
         mass: In kg.
         density: In kg/m², instead of a mass.
@@ -275,6 +276,7 @@ class Cloth:
         *,
         position: Optional[_Vector] = None,
         rotation: Optional[_Vector] = None,
+        sag: Optional[float] = None,
         velocity: Optional[_Vector] = None,
         mass: float = 1.0,
         density: Optional[float] = None,

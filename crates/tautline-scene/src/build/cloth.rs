@@ -41,8 +41,9 @@ fn weighed(builder: tautline::Cloth, cloth: &Cloth) -> tautline::Cloth {
 /// A value that a document may give, and what takes it.
 type Choice = (Option<f32>, fn(tautline::Cloth, f32) -> tautline::Cloth);
 
-fn choices(cloth: &Cloth) -> [Choice; 10] {
+fn choices(cloth: &Cloth) -> [Choice; 11] {
     [
+        (cloth.sag, tautline::Cloth::sag),
         (cloth.thickness, tautline::Cloth::thickness),
         (cloth.bending, tautline::Cloth::bending),
         (cloth.bending_stiffness, tautline::Cloth::bending_stiffness),

@@ -19,6 +19,10 @@ pub struct Cloth {
     pub position: [f32; 3],
     /// How its frame is turned.
     pub rotation: Rotation,
+    /// How far the middle of a grid hangs below its corners where it is laid out, at rest, in m; half as far at the
+    /// middle of its sides.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sag: Option<f32>,
     /// Velocity, in m/s.
     pub velocity: [f32; 3],
     /// Mass of the whole sheet, in kg, unless a density or masses are given.
@@ -96,6 +100,7 @@ impl Default for Cloth {
             surface: Surface::default(),
             position: [0.0; 3],
             rotation: Rotation::default(),
+            sag: None,
             velocity: [0.0; 3],
             mass: 1.0,
             density: None,

@@ -22,7 +22,8 @@ fn hammock(p: &Parameters) -> Scene {
     let mut random = Random::new(p.seed());
     let cloth = Cloth {
         surface: Surface::Grid { columns: 28, rows: 28, width: SIDE, depth: SIDE },
-        position: [0.0, 1.1, 0.0],
+        position: [0.0, 1.3, 0.0],
+        sag: Some(0.5),
         mass: 1.0,
         thickness: Some(0.06),
         pins: vec![Pin::Place(SheetPlace::Corners)],

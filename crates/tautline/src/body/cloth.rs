@@ -3,7 +3,7 @@
 mod fabric;
 mod mass;
 
-use glam::{Quat, Vec3};
+use glam::{Quat, Vec2, Vec3};
 
 use super::deformable::{BuiltDeformable, Deformable, GridShape, Parts};
 use crate::constraint::{AngleLimit, Bending, Stick};
@@ -19,6 +19,7 @@ pub struct Cloth {
     surface: Surface,
     position: Vec3,
     rotation: Quat,
+    sag: f32,
     velocity: Vec3,
     mass: Mass,
     friction: f32,
@@ -65,6 +66,7 @@ impl Cloth {
             surface,
             position: Vec3::ZERO,
             rotation: Quat::IDENTITY,
+            sag: 0.0,
             velocity: Vec3::ZERO,
             mass: Mass::Whole(1.0),
             friction: 0.5,
@@ -84,6 +86,12 @@ impl Cloth {
     /// Rotation about the surface's origin; normalised when added.
     pub fn rotation(self, rotation: Quat) -> Self {
         Self { rotation, ..self }
+    }
+
+    /// How far the middle of a grid hangs below its corners where it is laid out, at rest, in m: so much more cloth
+    /// there is than the rectangle takes. Half as far at the middle of its sides. No effect on other surfaces.
+    pub fn sag(self, sag: f32) -> Self {
+        Self { sag, ..self }
     }
 
     /// Velocity of all particles, in m/s.
@@ -148,9 +156,11 @@ impl Cloth {
     pub(crate) fn build(self) -> Result<BuiltDeformable, Error> {
         self.validate()?;
         let mesh = match &self.surface {
-            Surface::Grid { columns, rows, width, depth } => {
-                primitives::grid(*columns, *rows, *width, *depth)?
-            }
+            Surface::Grid { columns, rows, width, depth } => sagging(
+                primitives::grid(*columns, *rows, *width, *depth)?,
+                0.5 * Vec2::new(*width, *depth),
+                self.sag,
+            ),
             Surface::Mesh(mesh) => mesh.clone(),
         };
         let half_edges = HalfEdgeMesh::from_mesh(&mesh)?;
@@ -172,7 +182,7 @@ impl Cloth {
         };
         let grid = match self.surface {
             // What is laid out as a grid has sticks that are all alike.
-            Surface::Grid { columns, rows, width, depth } if self.wish.is_uniform() => {
+            Surface::Grid { columns, rows, width, depth } if self.wish.is_uniform() && self.sag == 0.0 => {
                 let edges = [width / (columns - 1) as f32, depth / (rows - 1) as f32];
                 Some(GridShape { columns, rows, edges })
             }
@@ -209,6 +219,7 @@ impl Cloth {
     fn validate(&self) -> Result<(), Error> {
         coordinates("position", self.position)?;
         coordinates("velocity", self.velocity)?;
+        within("sag", self.sag, 0.0, 1e6, "a length from 0 to 1e6 (m)")?;
         within("rotation", self.rotation.length_squared(), 1e-6, 1e6, "a quaternion with a length near 1")?;
         self.mass.validate()?;
         within("friction", self.friction, 0.0, 1e6, "a number from 0 to 1e6")?;
@@ -224,6 +235,15 @@ impl Cloth {
         }
         self.wish.validate()
     }
+}
+
+/// A rectangle with these half sides, lowered by `sag` in the middle (m).
+fn sagging(mut rectangle: TriMesh, half: Vec2, sag: f32) -> TriMesh {
+    for position in &mut rectangle.positions {
+        let outward = Vec2::new(position.x, position.z) / half;
+        position.y -= sag * (1.0 - 0.5 * outward.length_squared());
+    }
+    rectangle
 }
 
 /// The cells of a grid: half as many leaves as triangles, and rounder.

@@ -182,6 +182,24 @@ fn masses_are_those_given_or_follow_the_area() {
     assert!((found[4] - 3.0).abs() < 1e-5 && (found[1] - 1.5).abs() < 1e-5, "{found:?}");
 }
 
+#[test]
+fn a_sheet_laid_out_with_sag_is_at_rest_there() {
+    let mut world = World::new(Settings { gravity: Vec3::ZERO, sleep: None, ..Settings::default() }).unwrap();
+    let corners = [0, 8, 72, 80];
+    let sheet = corners.into_iter().fold(Cloth::grid(9, 9, 2.0, 1.0).sag(0.5), Cloth::pin);
+    let sheet = world.add(sheet).unwrap();
+    let laid_out = positions(&world, sheet);
+    let heights = [laid_out[0].y, laid_out[4].y, laid_out[40].y];
+    assert!(
+        heights.iter().zip([0.0, -0.25, -0.5]).all(|(y, wanted)| (y - wanted).abs() < 1e-6),
+        "{heights:?}"
+    );
+    run(&mut world, 0.5);
+    let moved =
+        positions(&world, sheet).iter().zip(&laid_out).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
+    assert!(moved < 1e-6, "{moved}");
+}
+
 /// A panel that is bent to five sixths of a tube, and sewn up.
 fn tube(world: &mut World) -> BodyHandle {
     let mut mesh = primitives::grid(16, 6, 1.5, 0.5).unwrap();
@@ -233,6 +251,7 @@ fn what_is_wrong_with_fabric_is_refused_by_name() {
             ("shear_compliance", cloth().compliance(1.0).shear_compliance(wrong)),
             ("strain_limit", cloth().strain_limit(wrong)),
             ("density", cloth().density(wrong)),
+            ("sag", cloth().sag(wrong)),
             ("masses[2]", cloth().masses(vec![1.0, 1.0, wrong, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0])),
         ] {
             assert_eq!(field(world.add(cloth).unwrap_err()), name);

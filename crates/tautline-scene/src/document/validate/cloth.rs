@@ -11,6 +11,10 @@ pub(super) fn check_cloth(c: &mut Checker, cloth: &Cloth, has_trusses: bool) {
     c.within("surface", |c| check_surface(c, &cloth.surface));
     c.vector("position", &cloth.position, COORDINATE);
     check_rotation(c, &cloth.rotation);
+    c.optional("sag", cloth.sag, THICKNESS);
+    c.require(cloth.sag.is_none() || matches!(cloth.surface, Surface::Grid { .. }), "sag", || {
+        "only a grid is laid out so: give the surface its shape".to_owned()
+    });
     c.vector("velocity", &cloth.velocity, COORDINATE);
     let count = match cloth.surface {
         Surface::File(_) => None,
