@@ -194,6 +194,14 @@ impl Body {
         arrays::vectors(py, &velocities)
     }
 
+    /// Sets the velocities of the particles of a cloth, rope or soft solid, in m/s: float32, C-contiguous, (n, 3). Nothing
+    /// happens to pinned ones.
+    fn set_particle_velocities(&self, py: Python<'_>, velocities: &Bound<'_, PyAny>) -> Outcome<()> {
+        let count = self.view(py, |body| body.positions().len())?;
+        let velocities = args::exact_points("velocities", velocities, count)?;
+        self.change(py, |world, body| world.set_particle_velocities(body, &velocities))
+    }
+
     /// The vertices of its surface, in m: (v, 3).
     #[getter]
     fn surface_positions<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyArray2<f32>>> {

@@ -69,8 +69,13 @@ def test_arrays_that_are_set_are_as_the_engines_own(drape: tl.World, problem: st
     with pytest.raises(tl.InvalidValueError, match=problem):
         drape["cloth"].set_positions(positions)
     assert drape.state_hash == before
+    with pytest.raises(tl.InvalidValueError, match=problem.replace("positions", "velocities")):
+        drape["cloth"].set_particle_velocities(positions)
+    assert drape.state_hash == before
     drape["cloth"].set_positions(GOOD + np.float32(2))
     assert (drape["cloth"].positions == 2).all()
+    drape["cloth"].set_particle_velocities(GOOD + np.float32(3))
+    assert np.allclose(drape["cloth"].particle_velocities, 3)
 
 
 def test_a_scene_names_all_its_problems() -> None:

@@ -92,6 +92,15 @@ impl Session {
         self.with_body(body, |world, body| world.set_particle_position(body, particle, vec3(position)))
     }
 
+    pub fn set_particle_velocity(
+        &mut self,
+        body: u32,
+        particle: u32,
+        velocity: &[f32],
+    ) -> Result<(), JsValue> {
+        self.with_body(body, |world, body| world.set_particle_velocity(body, particle, vec3(velocity)))
+    }
+
     pub fn rope_length(&self, rope: u32) -> Result<f32, JsValue> {
         Ok(self.world().rope_length(self.body(rope)?).map_err(Failure::from)?)
     }

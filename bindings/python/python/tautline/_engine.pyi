@@ -697,6 +697,9 @@ class Body:
     @property
     def particle_velocities(self) -> _Floats:
         """Of its particles, in m/s: (n, 3)."""
+    def set_particle_velocities(self, velocities: _Floats) -> None:
+        """Sets the velocities of the particles of a cloth, rope or soft solid, in m/s: float32, C-contiguous, (n, 3). Nothing
+        happens to pinned ones."""
     @property
     def surface_positions(self) -> _Floats:
         """The vertices of its surface, in m: (v, 3)."""

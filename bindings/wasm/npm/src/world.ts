@@ -363,6 +363,12 @@ export class World {
     this.ask((session) => session.set_particle_position(handle(body), handle(particle), at));
   }
 
+  /** The velocity of a particle of a sheet, rope or soft solid, in m/s. */
+  setParticleVelocity(body: BodyHandle, particle: number, velocity: Vec3): void {
+    const value = vec3(velocity, "velocity");
+    this.ask((session) => session.set_particle_velocity(handle(body), handle(particle), value));
+  }
+
   /** The length of a rope at rest, in m. */
   ropeLength(rope: BodyHandle): number {
     return this.ask((session) => session.rope_length(handle(rope)));

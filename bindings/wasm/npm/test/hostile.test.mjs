@@ -36,6 +36,7 @@ test("numbers that are none", () => {
   refused(() => world.setVelocity(ball, [0, 1e300, 0]), "invalid", "velocity.y");
   refused(() => world.setVelocity(ball, [0, 0]), "invalid", "velocity");
   refused(() => world.setVelocity(ball, null), "invalid", "velocity");
+  refused(() => world.setParticleVelocity(ball, 0, [0, Number.NaN, 0]), "invalid", "velocity.y");
   refused(() => world.setPose(ball, [0, 0, 0], [0, 0, 0, 0]), "invalid", "rotation");
   refused(() => world.grab(ball, [0, 0, 0], { frequency: -1 }), "invalid", "grip.frequency");
   refused(() => world.rayCast([0, 0, 0], [0, 0, 0]), "invalid", "direction");

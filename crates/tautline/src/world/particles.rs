@@ -1,5 +1,7 @@
 //! Single particles of trusses, cloth and rope.
 
+use std::ops::Range;
+
 use glam::Vec3;
 
 use super::World;
@@ -75,16 +77,7 @@ impl World {
     /// [`Error::StaleHandle`]; [`Error::OutOfRange`] if a coordinate is; [`Error::Invalid`] if the body is rigid or has
     /// another number of particles.
     pub fn set_particle_positions(&mut self, handle: BodyHandle, positions: &[Vec3]) -> Result<(), Error> {
-        let index = self.slots.index(handle)?;
-        let range = self.bodies[index].particles.clone();
-        if self.bodies[index].is_rigid() {
-            return Err(no_particles());
-        }
-        if positions.len() != range.len() {
-            let problem = format!("has {} points for {} particles", positions.len(), range.len());
-            return Err(Error::Invalid { field: "positions".into(), problem });
-        }
-        all_coordinates("positions", positions)?;
+        let (index, range) = self.all_particles(handle, "positions", positions)?;
         self.wake_body(index);
         self.wake_around_fixed(index);
         self.index.take();
@@ -112,6 +105,43 @@ impl World {
             self.wake_body(index);
         }
         Ok(())
+    }
+
+    /// Sets the velocities of all particles of a body (m/s), in their order; otherwise as
+    /// [`World::set_particle_velocity`].
+    ///
+    /// # Errors
+    /// As [`World::set_particle_positions`].
+    pub fn set_particle_velocities(&mut self, handle: BodyHandle, velocities: &[Vec3]) -> Result<(), Error> {
+        let (index, range) = self.all_particles(handle, "velocities", velocities)?;
+        let time = self.bodies[index].displacement_time();
+        for (i, velocity) in range.zip(velocities) {
+            if self.particles.inverse_mass[i] > 0.0 {
+                self.particles.displacement[i] = *velocity * time;
+            }
+        }
+        self.wake_body(index);
+        Ok(())
+    }
+
+    /// The index of a body and the range of its particles, if a vector is given for each of them.
+    fn all_particles(
+        &self,
+        handle: BodyHandle,
+        field: &'static str,
+        given: &[Vec3],
+    ) -> Result<(usize, Range<usize>), Error> {
+        let index = self.slots.index(handle)?;
+        let range = self.bodies[index].particles.clone();
+        if self.bodies[index].is_rigid() {
+            return Err(no_particles());
+        }
+        if given.len() != range.len() {
+            let problem = format!("has {} vectors for {} particles", given.len(), range.len());
+            return Err(Error::Invalid { field: field.into(), problem });
+        }
+        all_coordinates(field, given)?;
+        Ok((index, range))
     }
 
     /// Sets the mass of one particle, in kg.

@@ -205,6 +205,7 @@ fn wrong_calls_are_refused() {
     vector_refused(w, "force", &far, |w, x| w.apply_force_at(body, 0, x));
     vector_refused(w, "position", &far, |w, x| w.set_particle_position(body, 0, x));
     vector_refused(w, "velocity", &far, |w, x| w.set_particle_velocity(body, 0, x));
+    refused(w, "velocities", &[7, 9], |w, n| w.set_particle_velocities(body, &vec![Vec3::X; n]));
     refused(w, "mass", &with(&[0.0, -1.0, 1e-31, 1e31]), |w, m| w.set_particle_mass(body, 0, m));
     refused(w, "dt", &with(&[0.0, -0.0, -DT, 1e-8, 1.001, 1e9]), |w, dt| w.step(dt));
     const DT: f32 = crate::DT;
@@ -235,6 +236,7 @@ fn stale_handles_are_refused_by_every_call() {
         world.unpin(stale, 0),
         world.set_particle_position(stale, 0, Vec3::X),
         world.set_particle_velocity(stale, 0, Vec3::X),
+        world.set_particle_velocities(stale, &[]),
         world.set_particle_mass(stale, 0, 1.0),
         world.wake(stale),
     ];
