@@ -132,7 +132,7 @@ impl Walk {
     }
 
     /// Looks at the support point along the direction; false when the walk is over.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn iterate(&mut self, vertex: CsoVertex, only_whether: bool) -> bool {
         self.iterations += 1;
         let height = self.direction.dot(vertex.point);

@@ -104,7 +104,7 @@ fn pack(points: &[Vec3]) -> Vec<[Row; 3]> {
     points.chunks(LANES).map(group).collect()
 }
 
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn farthest<L: Lanes>(groups: &[[Row; 3]], direction: Vec3) -> (usize, f32) {
     let direction = Vec3x8::<L>::splat(direction);
     let (mut best, mut height) = (0, f32::NEG_INFINITY);

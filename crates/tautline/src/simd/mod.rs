@@ -118,7 +118,8 @@ pub(crate) trait Kernel {
     type Output;
     /// Has to be `#[inline(always)]`, as all that it calls in its hot loops: else it is compiled without the
     /// instructions it was dispatched to. A closure cannot be: hot loops have none that works on lanes, and no
-    /// `array::map`.
+    /// `array::map`. WebAssembly has one instruction set, and what is longer than a few lines is inlined there only where
+    /// it pays: browsers compile functions of tens of kilobytes badly.
     fn run<L: Lanes>(self) -> Self::Output;
 }
 

@@ -102,7 +102,7 @@ struct Sweep {
 
 impl Bound for Sweep {
     /// The slab test: between entering the last and leaving the first of three pairs of planes the ray is inside.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn at_least<L: Lanes>(&self, node: &Node) -> L {
         let mut enter = L::splat(0.0);
         let mut leave = L::splat(f32::MAX);

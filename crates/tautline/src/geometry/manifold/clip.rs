@@ -50,7 +50,7 @@ pub(super) struct Reference {
 
 impl Reference {
     /// The face that is nearest to a direction from A to B, or `None` if none is near.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn choose<L: Lanes, B: Core>(pair: &Pair<B>, normal: Vec3) -> Option<Self> {
         let (face_a, along_a) = pair.a.facing::<L>(normal);
         let (face_b, along_b) = pair.b.facing::<L>(-pair.b_in_a.direction_inside(normal));
@@ -87,7 +87,7 @@ impl Polygon {
 
     /// Fills `candidates` with the corners of what the incident face, segment or point has over the reference face
     /// and less than `limit` beyond its plane. Separations are those of the cores.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn clip<L: Lanes, B: Core>(&mut self, pair: &Pair<B>, reference: &Reference, limit: f32) {
         self.gather::<L, B>(pair, reference);
         let count = self.reference.len();
@@ -112,7 +112,7 @@ impl Polygon {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn gather<L: Lanes, B: Core>(&mut self, pair: &Pair<B>, reference: &Reference) {
         let Self { reference: outline, incident, .. } = self;
         outline.clear();
@@ -142,7 +142,7 @@ impl Polygon {
     }
 
     /// Cuts off what lies outside one side of the reference face, into `clipped`; false if that is nothing.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn clip_to_side(&mut self, side: usize, start: Vec3, inward: Vec3, body: Body) -> bool {
         let height = |corner: &Corner| inward.dot(corner.position - start);
         if self.incident.iter().all(|corner| height(corner) >= 0.0) {
@@ -170,7 +170,7 @@ impl Polygon {
     }
 
     /// Where an edge of the polygon crosses a side of the reference face.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn key_of_crossing(&self, edge: Edge, side: usize, body: Body) -> Key {
         let corner = self.reference[side].0;
         match edge {

@@ -18,7 +18,7 @@ const MISLED: f32 = 1e-2;
 
 /// The contact by the face that the remembered axis belongs to, or `None` if that does not describe it. No points if
 /// the surfaces are further apart than `margin`.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(super) fn remembered<L: Lanes, B: Core>(
     pair: &Pair<B>,
     (memory, scratch): (&mut Memory, &mut Scratch),
@@ -50,7 +50,7 @@ pub(super) fn remembered<L: Lanes, B: Core>(
 
 /// The contact by a face near the touching normal; where that does not describe it, the nearest points. `limit`: how
 /// far apart the cores may be, in m.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(super) fn touching<L: Lanes, B: Core>(
     pair: &Pair<B>,
     touch: &Touch,

@@ -94,7 +94,7 @@ impl Memory {
     }
 
     /// The remembered corners, or if there are none `support`.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn simplex(&self, support: [u16; 2]) -> Simplex {
         let mut simplex = Simplex::default();
         for &pair in &self.pairs[..usize::from(self.count)] {
@@ -123,7 +123,7 @@ impl Memory {
 /// of the least depth. A pair that overlaps keeps to the way out that it came in by while that is about as short
 /// as any, or the overlap less than a fiftieth of its width; otherwise it is the shortest. Coincident bodies
 /// have one too; of equally short ones it is any.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(crate) fn collide<L: Lanes>(
     a: &Convex,
     b: &Convex,
@@ -183,7 +183,7 @@ impl Manifold {
     }
 
     /// Adds a point, unless there is one of the same features.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn push<B: Core>(&mut self, pair: &Pair<B>, candidate: &Candidate) {
         let key = candidate.key.0;
         if self.points[..self.count].iter().any(|point| point.key == key) {

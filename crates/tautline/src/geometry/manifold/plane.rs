@@ -11,7 +11,7 @@ use crate::simd::Lanes;
 
 /// Where A touches the half-space of the points x of A's frame with `normal · x <= offset` (normal unit, offset in m),
 /// or will within `margin` m. The manifold's normal is `-normal`, and `on_b` is in A's frame, on the plane.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(crate) fn collide_plane<L: Lanes>(
     a: &Convex,
     normal: Vec3,

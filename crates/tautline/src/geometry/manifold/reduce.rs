@@ -20,7 +20,7 @@ const BETTER: f32 = 1.001;
 /// Moves the four to the front, and returns how many there are: of the points less than `slop` m above the deepest
 /// the one farthest from the middle, the one farthest from it, the one that makes the largest triangle with both, and
 /// the one farthest beyond one of the triangle's sides. Ties go to the first.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(super) fn reduce(points: &mut [Candidate], normal: Vec3, slop: f32) -> usize {
     if points.len() <= 4 {
         return points.len();

@@ -12,7 +12,7 @@ use crate::norm::Norm;
 
 /// The contact of two balls, or no points if they are further apart than `margin`. Where both centres are the same,
 /// the remembered axis is kept, or `axis` taken.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(super) fn balls<B: Core>(pair: &Pair<B>, memory: &mut Memory, axis: Vec3, margin: f32) -> Manifold {
     let on_a = pair.point_of_a(0);
     let on_b = pair.point_of_b(0);

@@ -34,7 +34,7 @@ impl Simplex {
 
     /// Drops the vertices that the closest point to the origin does not need, and returns that point; `None` if
     /// the origin is enclosed.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn reduce(&mut self) -> Option<Vec3> {
         let [p, q, r, _] = self.vertices.map(|vertex| vertex.point);
         let (closest, weights) = match self.count {
@@ -63,7 +63,7 @@ impl Simplex {
 
     /// Of the faces at the newest vertex that have the origin on their outer side (the face of the other three was
     /// where the walk came from). A flat tetrahedron has both sides outside.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn closest_on_tetrahedron(&self) -> Option<(Vec3, [f32; 4])> {
         let points = self.vertices.map(|vertex| vertex.point);
         let mut best = None;
@@ -87,7 +87,7 @@ impl Simplex {
 }
 
 /// The point closest to the origin, and its weights.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn closest_on_segment(a: Vec3, b: Vec3) -> (Vec3, [f32; 2]) {
     let along = b - a;
     let (part, length_squared) = (-a.dot(along), along.length_squared());
@@ -102,7 +102,7 @@ fn closest_on_segment(a: Vec3, b: Vec3) -> (Vec3, [f32; 2]) {
 }
 
 /// The point closest to the origin, and its weights (Ericson, Real-Time Collision Detection, 5.1.5).
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn closest_on_triangle(a: Vec3, b: Vec3, c: Vec3) -> (Vec3, [f32; 3]) {
     let (ab, ac) = (b - a, c - a);
     let (d1, d2) = (-ab.dot(a), -ac.dot(a));

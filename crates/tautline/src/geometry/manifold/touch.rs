@@ -48,7 +48,7 @@ pub(super) struct Touch {
 
 impl Touch {
     /// Of one body's corners among the pairs: the distinct ones, ascending, and how many.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn corners(&self, body: usize) -> ([u16; 3], usize) {
         let mut corners = [0; 3];
         let mut count = 0;
@@ -85,7 +85,7 @@ pub(super) struct Start {
 impl Start {
     /// `None` if the axis shows the surfaces to be further apart than `margin`. `axis`, unit, is that of a pair
     /// without memory.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn new<L: Lanes, B: Core>(
         pair: &Pair<B>,
         memory: &mut Memory,
@@ -104,7 +104,7 @@ impl Start {
     }
 
     /// Where the remembered axis does not separate the cores: what starts from another one, if that is better.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn or_along<L: Lanes, B: Core>(
         self,
         pair: &Pair<B>,
@@ -122,7 +122,7 @@ impl Start {
 
 /// Where the surfaces are nearest, or `None` if they are further apart than `margin`. Both ways the memory is
 /// brought up to date.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(super) fn find<L: Lanes, B: Core>(
     pair: &Pair<B>,
     (memory, scratch): (&mut Memory, &mut Scratch),
@@ -160,7 +160,7 @@ enum Climb {
 }
 
 /// Shifted GJK from the remembered axis.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn climb<L: Lanes, B: Core>(pair: &Pair<B>, memory: &mut Memory, start: &Start, margin: f32) -> Climb {
     let radii = pair.radii();
     let &Start { scale, support, mut separation, .. } = start;
@@ -190,7 +190,7 @@ fn climb<L: Lanes, B: Core>(pair: &Pair<B>, memory: &mut Memory, start: &Start, 
 }
 
 /// Whether the way out of an overlap, `-separation` deep along `normal`, may be shorter elsewhere.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(super) fn is_deep<L: Lanes, B: Core>(
     pair: &Pair<B>,
     normal: Vec3,
@@ -229,7 +229,7 @@ impl Touch {
     }
 
     /// From a simplex and its weights, of a pair that may have been shifted.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn new<B: Core>(pair: &Pair<B>, normal: Vec3, separation: f32, simplex: &Simplex, size: f32) -> Self {
         let (mut on_a, mut on_b) = (Vec3::ZERO, Vec3::ZERO);
         let mut pairs = [[0; 2]; 3];
@@ -244,7 +244,7 @@ impl Touch {
 
     /// Takes out what a shift left between the points across the normal: on the side of a face or an edge, that of a
     /// vertex is exact.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn aligned(mut self) -> Self {
         let across = self.on_b - self.on_a - self.normal * self.separation;
         let share = match (self.corners(0).1, self.corners(1).1) {

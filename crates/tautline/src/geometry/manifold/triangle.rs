@@ -32,7 +32,7 @@ pub(crate) struct Triangle {
 /// touched. A normal that is not the face's is kept only where the touched edge, or an edge at the touched corner, is
 /// active; else the face's takes its place, so that nothing stumbles over edges within a surface (as in
 /// Jolt Physics, `ActiveEdges`).
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(crate) fn collide_triangle<L: Lanes>(
     a: &Convex,
     triangle: &Triangle,

@@ -32,7 +32,7 @@ pub(super) enum Walk {
 
 /// Walks from a simplex of one to three vertices of B ⊖ A (their points are filled in here) to the point closest
 /// to the origin. `limit`: the distance from which on it does not matter; `scale`: how large coordinates get, in m.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(super) fn walk<L: Lanes, B: Core>(
     pair: &Pair<B>,
     shift: Vec3,

@@ -78,7 +78,7 @@ impl Batch {
         batch
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn relax<L: Lanes>(&self, points: &mut Points, masses: &[f32], scale: f32) {
         let (mut between, mut before, mut free) = ([Row::ZERO; 3], [Row::ZERO; 3], [Row::ZERO; 2]);
         for lane in 0..self.count {

@@ -21,7 +21,7 @@ pub(super) struct Lines<'a> {
 
 impl Lines<'_> {
     /// Bends every line at every inner knot once; of three knots that follow each other, each in its own colour.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn straighten<L: Lanes>(&self, moving: &mut Moving<'_>, masses: &[f32]) {
         let (mut knots, masses, compliances) = (moving.eights(), eights(masses), eights(self.compliances));
         let (start, stride, count) = (self.start / LANES, self.stride / LANES, self.count / LANES);
@@ -40,7 +40,7 @@ impl Lines<'_> {
 /// λ = −C/max(α/h² + M/2, M) with M = w_a + 4 w_b + w_c: a force as long as that is stable, and a projection where it would
 /// not be. Of the knots around one, half are straightened before it in a pass, and leave it more bent by M/2 times their λ
 /// than it will be; so that with M/2 its stiffness is as asked on the mean, where the usual M would make it softer.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn straighten_eight<L: Lanes>(
     knots: &mut MovingEights<'_>,
     masses: &[[f32; LANES]],

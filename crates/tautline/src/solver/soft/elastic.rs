@@ -168,7 +168,7 @@ impl Eight {
         eight
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn relax<L: Lanes>(&self, points: &mut Points, material: Material, h_squared: f32) {
         let (mut edges, mut masses) = ([[Row::ZERO; 3]; 3], [Row::ZERO; 4]);
         for lane in 0..self.count {
@@ -203,7 +203,7 @@ impl Eight {
 
 /// What the corners but the first get, in kg m in a small step, from the edges to them from the first (m), the gradients of
 /// their weights and the inverse masses of all four; `volume` is h² V.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn impulses<L: Lanes>(
     edges: [Vec3x8<L>; 3],
     gradients: [Vec3x8<L>; 3],

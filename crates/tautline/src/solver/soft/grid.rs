@@ -54,7 +54,7 @@ impl Grid {
 
     /// Relaxes every stick once, colour by colour: along rows, along columns, across cells. In this order a sweep
     /// spreads alike in all directions; in the order of rows, two that alternate blow sheets up.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn sweep<L: Lanes>(
         &self,
         moving: &mut Moving<'_>,

@@ -25,7 +25,7 @@ pub(super) struct Windows {
 
 impl Windows {
     /// Looks for edges that are longer than they should be by more than the share `tolerance`.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn find<L: Lanes>(&mut self, grid: &Grid, weave: &Weave, points: &Points, tolerance: f32) {
         self.windows.clear();
         let [along, down] = [weave[0].high, weave[1].high].map(|length| length * (1.0 + tolerance));
@@ -57,7 +57,7 @@ impl Windows {
     }
 
     /// Puts windows around those of eight sticks, in every second column, that are longer than `most` (m).
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn mark<L: Lanes>(
         &mut self,
         grid: &Grid,

@@ -173,7 +173,7 @@ impl Meetings {
     }
 
     /// Bounds of how the particles of a tile have moved since the last look, which this is.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn motion_of<L: Lanes>(&mut self, tile: usize, points: &Points) -> Bounds {
         let mut low = Vec3x8::<L>::splat(Vec3::INFINITY);
         let mut high = Vec3x8::<L>::splat(Vec3::NEG_INFINITY);
@@ -195,7 +195,7 @@ impl Meetings {
     }
 
     /// Brings all lists up to date. Tiles have been. `ahead` is how long it is until the next look, in times since the last.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn look<L: Lanes>(&mut self, points: &Points, ahead: f32) {
         let mut old = std::mem::take(&mut self.lists).into_iter().peekable();
         let mut lists = Vec::new();
@@ -249,7 +249,7 @@ impl Meetings {
         (a.high - b.low).abs().max((b.high - a.low).abs()).norm()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn list_pairs<L: Lanes>(&self, points: &Points, list: &mut List) {
         let [a, b] = list.tiles.map(|tile| tile as usize);
         let reach = list.distance * (1.0 + MARGIN);
@@ -290,7 +290,7 @@ impl Meetings {
     }
 
     /// Lists those of eight particles whose bits are set, as near one, unless they are its neighbours in the material.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn list_near<L: Lanes>(
         &self,
         place: usize,
@@ -341,7 +341,7 @@ impl List {
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn part_pair(points: &mut Points, [a, b]: [usize; 2], (distance, recovery): (f32, f32), friction: f32) {
     let between = points.at(b) - points.at(a);
     let squared = between.length_squared();

@@ -33,7 +33,7 @@ impl Cone {
 }
 
 /// The cone of a sheet's tile, from the diagonals of its cells.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(super) fn cone_of<L: Lanes>(grid: &Grid, tile: &Tile, points: &Points) -> Cone {
     let mut normals = [Vec3x8::<L>::zero(); super::tile::MOST_EIGHTS];
     let mut sum = Vec3x8::<L>::zero();
@@ -57,7 +57,7 @@ pub(super) fn cone_of<L: Lanes>(grid: &Grid, tile: &Tile, points: &Points) -> Co
 }
 
 /// Unit normals of the eight cells whose first corners are these places; 0 where there is no cell.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn cell_normals<L: Lanes>(grid: &Grid, place: usize, points: &Points) -> Vec3x8<L> {
     let (stride, half) = (grid.stride(), grid.half);
     let row = (place - grid.start) / stride;

@@ -36,7 +36,7 @@ impl<'a> Form<'a> {
     }
 
     /// Of the core, without the radius around it. Beyond `reach` (m) a distance may be less than it is.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn probe<L: Lanes>(&self, points: Vec3x8<L>, reach: f32) -> Probe<L> {
         match *self {
             Self::Point(center) => around(points - Vec3x8::splat(center)),
@@ -83,7 +83,7 @@ fn around<L: Lanes>(from: Vec3x8<L>) -> Probe<L> {
     Probe { distance, normal }
 }
 
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn probe_cuboid<L: Lanes>(points: Vec3x8<L>, axes: &Mat3, half: Vec3) -> Probe<L> {
     let zero = L::splat(0.0);
     let local = [axes.x_axis, axes.y_axis, axes.z_axis];
@@ -122,7 +122,7 @@ fn probe_cuboid<L: Lanes>(points: Vec3x8<L>, axes: &Mat3, half: Vec3) -> Probe<L
 
 /// Above no face the point is inside, and the highest face is the nearest. Else the distance to the highest face's plane
 /// is a lower bound, and where it is within reach the exact answer is looked up, point by point.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn probe_polytope<L: Lanes>(points: Vec3x8<L>, convex: &Convex, reach: f32) -> Probe<L> {
     let (mut distance, mut normal) = (L::splat(f32::NEG_INFINITY), Vec3x8::<L>::splat(Vec3::Y));
     for face in &convex.faces {
@@ -144,7 +144,7 @@ fn probe_polytope<L: Lanes>(points: Vec3x8<L>, convex: &Convex, reach: f32) -> P
 }
 
 /// Looks up the exact answer for the points whose bits are set.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn refine<L: Lanes>(points: Vec3x8<L>, convex: &Convex, lanes: u32, probe: Probe<L>) -> Probe<L> {
     let (mut at, mut normals, mut distances) = ([Row::ZERO; 3], [Row::ZERO; 3], Row::ZERO);
     points.store(&mut at);
@@ -177,7 +177,7 @@ impl Facet {
 
 /// Of the nearest of some triangles, from either side of it. Beyond `reach` (m) a distance may be more than it is: most
 /// triangles are passed over, for they are farther than that from all eight points.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(super) fn probe_triangles<L: Lanes>(points: Vec3x8<L>, facets: &[Facet], reach: f32) -> Probe<L> {
     let mut least = L::splat(f32::MAX);
     let mut nearest = Vec3x8::<L>::splat(Vec3::Y);
@@ -201,7 +201,7 @@ fn largest<L: Lanes>(points: Vec3x8<L>) -> Vec3 {
 }
 
 /// From the nearest point of a triangle to eight points.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn from_triangle<L: Lanes>(points: Vec3x8<L>, corners: &[Vec3; 3]) -> Vec3x8<L> {
     let [a, b, c] = *corners;
     let across = (b - a).cross(c - a);

@@ -60,7 +60,7 @@ impl Bundle {
     }
 
     /// Solves all sticks of each rope together and sweeps once over them; again for ropes that carry much.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn solve<L: Lanes>(&mut self, points: &mut Points, pivots: &mut Vec<Pivot<L>>) {
         self.read(points);
         self.pull(pivots);
@@ -73,7 +73,7 @@ impl Bundle {
         self.write(points);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn pull<L: Lanes>(&mut self, pivots: &mut Vec<Pivot<L>>) {
         let Self { knots, spans, stiff, mean_inverse_mass, position, displacement, masses, .. } = self;
         let mut moving = Moving { position, displacement };

@@ -45,7 +45,7 @@ impl Sheet {
 
     /// Bends, and pulls threads tight if some of the sheet is held: along columns in even small steps, along rows in odd
     /// ones. What lies on something is better left to sweeps: threads through its folds would push and pull in turn.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn pull_threads<L: Lanes>(
         &mut self,
         points: &mut Points,
@@ -74,7 +74,7 @@ impl Sheet {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn solve<L: Lanes>(
         &self,
         moving: &mut Moving<'_>,
@@ -114,7 +114,7 @@ fn along_columns(grid: &Grid, compliance: f32) -> Vec<f32> {
 
 impl Turned {
     /// Copies a sheet, row to column, whose rows then have `stride` places.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn read<L: Lanes>(&mut self, grid: &Grid, points: &Points, stride: usize) {
         let length = grid.stride() * stride;
         let copies = self.position.iter_mut().chain(&mut self.displacement);
@@ -136,7 +136,7 @@ impl Turned {
 }
 
 /// Column c of the sheet becomes row c.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn turn<L: Lanes>(grid: &Grid, numbers: &[f32], turned: &mut [f32], stride: usize) {
     let (numbers, turned) = (eights(numbers), turned.as_chunks_mut::<LANES>().0);
     let (step, stride) = (grid.stride() / LANES, stride / LANES);
@@ -156,7 +156,7 @@ fn turn<L: Lanes>(grid: &Grid, numbers: &[f32], turned: &mut [f32], stride: usiz
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn turn_back<L: Lanes>(grid: &Grid, turned: &[f32], numbers: &mut [f32], stride: usize) {
     let (turned, numbers) = (eights(turned), numbers.as_chunks_mut::<LANES>().0);
     let (step, stride) = (grid.stride() / LANES, stride / LANES);

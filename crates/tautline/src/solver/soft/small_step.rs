@@ -227,7 +227,7 @@ impl SoftSolver {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn look_at_cloth<L: Lanes>(&mut self) {
         let mut number = 0;
         for piece in &self.pieces {
@@ -248,7 +248,7 @@ impl SoftSolver {
         self.meetings.look::<L>(&self.points, ahead);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn look_at_ropes<L: Lanes>(&mut self) {
         let fastest = self.pieces.iter().map(|piece| piece.fastest).fold(0.0, f32::max);
         let thinnest = self.pieces.iter().map(|piece| piece.thickness).fold(f32::INFINITY, f32::min);

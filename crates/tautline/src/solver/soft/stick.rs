@@ -55,7 +55,7 @@ impl<L: Lanes> SpanAt<L> for &[[Row; 3]] {
 /// w_b + α/h²)) (Macklin, Müller and Chentanez 2016, Eq 18, with one iteration). Impulses along r, as it is now, would
 /// brake what turns, by ω³h; those along b keep its angular momentum to the last bit that rounding leaves (SHAKE; Ryckaert,
 /// Ciccotti and Berendsen 1977). What has turned by more than 60° goes along r. Nothing where both ends are held.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(super) fn pull<L: Lanes>(
     between: Vec3x8<L>,
     before: Vec3x8<L>,
@@ -73,7 +73,7 @@ pub(super) fn pull<L: Lanes>(
 }
 
 /// Relaxes `count` sticks: number k is from place `a + k` to `b + k`, and no place is in two of them.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(super) fn relax_run<L: Lanes>(
     moving: &mut Moving<'_>,
     masses: &[f32],

@@ -82,7 +82,7 @@ impl Strands {
     }
 
     /// Lists what may touch while nothing moves by more than `margin` (m).
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn look<'a, L: Lanes>(
         &mut self,
         points: &Points,
@@ -162,7 +162,7 @@ fn are_linked(links: &[[u32; 2]], a: [u32; 2], b: [u32; 2]) -> bool {
     a.into_iter().any(|from| b.into_iter().any(|to| is_link(from, to)))
 }
 
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn list_particles<L: Lanes>(
     points: &Points,
     tile: &Tile,
@@ -194,7 +194,7 @@ fn list_particles<L: Lanes>(
 impl Near {
     /// Of the nearest places of both, as they are: the gap that is missing along the line between them, and friction by
     /// Coulomb's law on displacements. What has passed the other in this small step is taken back to its side. Tells whether they touched.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn part(&self, points: &mut Points, recovery: f32) -> bool {
         let [a, b] = [self.a, self.b].map(|ends| ends.map(|place| place as usize));
         let (ends_a, ends_b) = (a.map(|place| points.at(place)), b.map(|place| points.at(place)));
@@ -250,7 +250,7 @@ impl Near {
 
 /// Where two segments are nearest to each other: shares from their starts (Ericson, Real-Time Collision Detection,
 /// 5.1.9). One may be a point.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn nearest_shares(a: [Vec3; 2], b: [Vec3; 2]) -> [f32; 2] {
     let (along_a, along_b, between) = (a[1] - a[0], b[1] - b[0], a[0] - b[0]);
     let (aa, bb, ab) = (along_a.length_squared(), along_b.length_squared().max(1e-30), along_a.dot(along_b));

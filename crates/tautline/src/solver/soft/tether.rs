@@ -67,7 +67,7 @@ impl Tethers {
     }
 
     /// Draws every particle in that is too far off.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn tighten<L: Lanes>(&self, points: &mut Points) {
         for tied in &self.tied {
             let place = tied.place as usize;

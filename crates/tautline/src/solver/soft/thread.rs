@@ -40,7 +40,7 @@ pub(super) struct Pivot<L> {
 
 impl<S> Threads<S> {
     /// Solves all threads. `pivots` is memory.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn solve<L: Lanes>(&self, moving: &mut Moving<'_>, masses: &[f32], pivots: &mut Vec<Pivot<L>>)
     where
         S: SpanAt<L>,
@@ -52,7 +52,7 @@ impl<S> Threads<S> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn eliminate<L: Lanes>(
         &self,
         knots: &MovingEights<'_>,
@@ -97,7 +97,7 @@ impl<S> Threads<S> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn substitute<L: Lanes>(
         &self,
         knots: &mut MovingEights<'_>,

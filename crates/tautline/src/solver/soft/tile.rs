@@ -74,7 +74,7 @@ pub(super) fn tiles_of_run(places: Range<usize>) -> Vec<Tile> {
 
 impl Tile {
     /// The box around its particles.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn bounds<L: Lanes>(&self, points: &Points) -> Bounds {
         let mut low = Vec3x8::<L>::splat(Vec3::INFINITY);
         let mut high = Vec3x8::<L>::splat(Vec3::NEG_INFINITY);

@@ -50,7 +50,7 @@ pub(super) struct Skin {
 }
 
 /// Finds the touches of some tiles with a solid.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(super) fn find<L: Lanes>(
     (tiles, boxes): (&[Tile], &[Bounds]),
     points: &Points,
@@ -133,7 +133,7 @@ impl Finder<'_> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn eight<L: Lanes>(&self, place: u32, target: Target<'_>, radius: f32, out: &mut Vec<Touch>) {
         let at = Vec3x8::<L>::read(&self.points.position, place as usize);
         let from_center = at - Vec3x8::splat(self.stance.center);
@@ -213,7 +213,7 @@ impl Touch {
     /// Moves its particles out of what it is about, with friction (Coulomb's law on displacements: the tangential one of
     /// this small step is taken back, by at most μ times what is corrected along the normal). Masses for the next sweep
     /// are written to `lightened`. Tells whether it has touched.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn solve<L: Lanes>(
         &mut self,
         points: &mut Points,
@@ -226,7 +226,7 @@ impl Touch {
     }
 
     /// As [`Touch::solve`], once more in the same small step.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn solve_again<L: Lanes>(
         &self,
         points: &mut Points,
@@ -274,7 +274,7 @@ impl Touch {
     }
 
     /// As [`Touch::solve`] for a solid that is moved in turn: particle after particle.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn share<L: Lanes>(&self, points: &mut Points, solid: &mut Solid<'_>, depth: L, slip: Vec3x8<L>) {
         let (mut depths, mut slips) = (Row::ZERO, [Row::ZERO; 3]);
         depth.store(&mut depths);

@@ -86,7 +86,7 @@ pub(super) fn particles<L: Lanes>(rows: &ParticleRows) -> [Vec3x8<L>; 4] {
 }
 
 /// The rotation, in the body's frame, that is in the displacements of four particles.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn spin_of<L: Lanes>(
     displacements: &[Vec3x8<L>; 4],
     arms: &[Vec3x8<L>; 4],
@@ -113,7 +113,7 @@ fn store_particle<L: Lanes>(vector: Vec3x8<L>, rows: &mut [Row]) {
 
 impl Block {
     /// Finds where the bodies are, and how their displacements times `scale` move them.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn read<L: Lanes>(
         &mut self,
         positions: &ParticleRows,
@@ -167,7 +167,7 @@ impl Block {
     }
 
     /// The particles of the bodies where they are now, and their displacements in the last substep.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn write<L: Lanes>(
         &self,
         columns: &[L; LANES],

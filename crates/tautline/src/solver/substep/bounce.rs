@@ -49,7 +49,7 @@ impl Bounce {
     }
 
     /// Before forces act: takes out the impulses of the last substep's blows, and finds who meets now.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn meet<L: Lanes>(
         &mut self,
         (batch, header, points): (&Batch, &HeaderRows, &mut [PointRows]),
@@ -103,7 +103,7 @@ impl Bounce {
     }
 
     /// After the relaxing pass: the contacts that were not felt have moved too.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn wake<L: Lanes>(
         &mut self,
         (batch, header, points): (&Batch, &HeaderRows, &mut [PointRows]),
@@ -117,7 +117,7 @@ impl Bounce {
     }
 
     /// Gives the bodies that met their speed apart. Tells whether any impulse changed.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn part<L: Lanes>(
         &self,
         (batch, header, points): (&Batch, &HeaderRows, &mut [PointRows]),

@@ -101,7 +101,7 @@ impl<L: Lanes> Body<L> {
 }
 
 /// Visits every batch once, in order.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(super) fn pass<L: Lanes>(
     pass: Pass,
     softness: &Softness,
@@ -127,7 +127,7 @@ fn load_both<L: Lanes>(rows: &[Rows3; 2]) -> [Vec3x8<L>; 2] {
 }
 
 /// One point of eight pairs: normal and friction from the same velocities.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn solve<L: Lanes>(
     pass: Pass,
     softness: &Softness,
@@ -222,7 +222,7 @@ pub(super) fn opening<L: Lanes>(header: &HeaderRows, rows: &PointRows, a: &Body<
 }
 
 /// Applies impulses along the normal and the tangents to b, and their opposites to a.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(super) fn push_apart<L: Lanes>(
     header: &HeaderRows,
     rows: &PointRows,
@@ -243,7 +243,7 @@ pub(super) fn push_apart<L: Lanes>(
 }
 
 /// Stops sliding, in the lanes of a mask, as far as Coulomb's cone over the normal impulse allows.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(super) fn solve_friction<L: Lanes>(
     header: &HeaderRows,
     rows: &mut PointRows,

@@ -77,7 +77,7 @@ impl<'a> Scene<'a> {
         self.shapes.get(self.place_of[body as usize] as usize)?.as_deref()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn placed(&self, body: u32) -> Placed {
         let place = self.place_of[body as usize] as usize;
         let (first, second) = (&self.poses[2 * place].0, &self.poses[2 * place + 1].0);
@@ -139,7 +139,7 @@ impl Kernel for Detect<'_> {
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn update<L: Lanes>(scene: Scene<'_>, pair: &mut Pair, detail: &mut Detail, scratch: &mut Scratch) {
     let a = scene.placed(pair.a);
     let (manifold, b) = match scene.shape(pair.b) {
@@ -185,7 +185,7 @@ fn part<'a>(scene: Scene<'a>, body: u32, part: u32) -> Option<&'a Convex> {
 }
 
 /// The points on the wall are in the world's frame.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn collide_with_wall<L: Lanes>(
     scene: Scene<'_>,
     part: &Convex,
@@ -215,7 +215,7 @@ fn relative(scene: Scene<'_>, a: &Placed, b: &Placed) -> (Placement, Vec3, f32) 
     (b_in_a, to_a * (a.motion - b.motion), scene.margin + 0.5 * (a.turning + b.turning))
 }
 
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn collide_with_triangle<L: Lanes>(
     scene: Scene<'_>,
     (part, surface): (&Convex, &Surface),
@@ -243,7 +243,7 @@ fn collide_with_triangle<L: Lanes>(
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn collide_parts<L: Lanes>(
     scene: Scene<'_>,
     (part_a, part_b): (&Convex, &Convex),
@@ -276,7 +276,7 @@ fn collide_parts<L: Lanes>(
 }
 
 /// Keeps a contact, which goes on as the pair's last one did.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn hold(scene: Scene<'_>, manifold: &Manifold, (a, b): (&Placed, &Placed), pair: &Pair, detail: &mut Detail) {
     let normal = a.axes * manifold.normal;
     let mut points = [HeldPoint::default(); MAX_POINTS];
@@ -302,7 +302,7 @@ fn hold(scene: Scene<'_>, manifold: &Manifold, (a, b): (&Placed, &Placed), pair:
 }
 
 /// The point of the last contact that a new one goes on from: of the same features, or else the nearest.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn predecessor(old: &Held, key: u32, on_a: Vec3, reach: f32) -> Option<HeldPoint> {
     let mut nearest = SAME_PLACE_SQUARED * reach * reach;
     let mut found = None;

@@ -18,7 +18,7 @@ const APART: f32 = 2e-4;
 
 impl Scene<'_> {
     /// Whether a contact is between bodies that have far to go before they touch, for their size.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn is_far_off(&self, manifold: &Manifold, approach: Vec3, pair: &Pair) -> bool {
         if !self.has_fast {
             return false;

@@ -32,7 +32,7 @@ impl<L: Lanes> Frames<L> {
 }
 
 impl Poses<'_> {
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn gather<L: Lanes>(&self, places: &[u32; LANES]) -> Frames<L> {
         let (mut firsts, mut seconds) = (*places, *places);
         for lane in 0..LANES {

@@ -39,7 +39,7 @@ struct Inputs {
 }
 
 impl Read<'_, '_> {
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn inputs(&self, places: &[u32]) -> Inputs {
         let mut inputs = Inputs {
             positions: [Row::ZERO; 12],
@@ -103,7 +103,7 @@ impl Kernel for Read<'_, '_> {
 }
 
 /// What gravity and forces add to the rows in a substep.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn kick<L: Lanes>(timing: &Timing, is_forced: bool, block: &Block, inputs: &Inputs) -> [L; LANES] {
     let constants = &block.constants;
     let (zero, h) = (L::splat(0.0), timing.h);
@@ -127,7 +127,7 @@ fn kick<L: Lanes>(timing: &Timing, is_forced: bool, block: &Block, inputs: &Inpu
 
 /// Notes which bodies have moved, and which may leave their boxes. Returns how far each one's rotation moves its
 /// points in the step, in m.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn track<L: Lanes>(timing: &Timing, block: &Block, motion: Motion<L>, track: &mut Track) -> L {
     let substeps = L::splat(timing.substeps);
     let reach = L::load(&block.constants.reach);
@@ -168,7 +168,7 @@ fn update<L: Lanes>(mask: L, rows: &mut Rows3, now: &Rows3) {
 }
 
 /// See `prepare::Poses`.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn write_poses<L: Lanes>(block: &Block, turning: L, poses: &mut [Row]) {
     let constants = &block.constants;
     let center = Vec3x8::<L>::load(&block.center);

@@ -25,7 +25,7 @@ const ROUNDED: f32 = 1.0001;
 
 /// Moves eight bodies by a substep of `h` (s) and returns their rows after it, damped by their own rates and that of
 /// the world (1/s).
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(super) fn advance<L: Lanes>(block: &mut Block, columns: &[L; LANES], h: f32, damping: f32) -> [L; LANES] {
     let motion = block.motion(columns);
     let shift = Vec3x8::load(&block.shift) + motion.linear;
@@ -54,7 +54,7 @@ pub(super) fn advance<L: Lanes>(block: &mut Block, columns: &[L; LANES], h: f32,
 ///
 /// What acts on a body after it has moved acts on the inertia of where the step began. A rod has turned since then, and
 /// what made it spin about its axis would have it spin across that, with the energy of that.
-#[inline(always)]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(super) fn calmed<L: Lanes>(block: &Block, columns: [L; LANES]) -> [L; LANES] {
     let angular = block.motion(&columns).angular;
     let inertia = Vec3x8::<L>::load(&block.constants.inertia);
@@ -137,7 +137,7 @@ struct Turn<L> {
 
 impl<L: Lanes> Turn<L> {
     /// Of bodies that turn by `angular` = ω h.
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn of(angular: Vec3x8<L>, inertia: Vec3x8<L>) -> Self {
         let one = L::splat(1.0);
         let half = angular * L::splat(0.5);

@@ -22,7 +22,7 @@ pub(super) struct Rolling {
 }
 
 impl Rolling {
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn new<L: Lanes>(number: u32, batch: &Batch, header: &HeaderRows, poses: &Poses<'_>) -> Self {
         let mut rolling = Self { batch: number, ..Self::default() };
         let (a, b) = (poses.gather::<L>(&batch.place_a), poses.gather::<L>(&batch.place_b));
@@ -38,7 +38,7 @@ impl Rolling {
         rolling
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn resist<L: Lanes>(
         &mut self,
         (batch, header, points): (&Batch, &HeaderRows, &[PointRows]),
