@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 
 use crate::geometry::closest::{closest_on_segment, closest_on_triangle};
 use crate::norm::Norm;
-use crate::shape::Convex;
+use crate::shape::{Convex, Face};
 
 use super::fan;
 
@@ -63,29 +63,48 @@ pub(crate) fn closest_to_half_space(point: DVec3, normal: DVec3, offset: f64) ->
     Closest { point: point - normal * distance, distance, normal }
 }
 
+/// Where a point is over its highest face, that is where it is closest. Else it is closest to an edge or a corner of a face
+/// that it is above: those that it sees.
 fn closest_on_faces(point: DVec3, part: &Convex, radius: f64) -> Closest {
+    let height = |face: &Face| face.normal.as_dvec3().dot(point) - f64::from(face.offset);
     // The face whose plane is highest under the point is the closest one if the point is inside.
-    let (mut height, mut outward) = (f64::NEG_INFINITY, DVec3::Y);
+    let (mut highest, mut top) = (f64::NEG_INFINITY, None);
     for face in &part.faces {
-        let normal = face.normal.as_dvec3();
-        let above = normal.dot(point) - f64::from(face.offset);
-        if above > height {
-            (height, outward) = (above, normal);
+        let above = height(face);
+        if above > highest {
+            (highest, top) = (above, Some(face));
         }
     }
+    let outward = top.map_or(DVec3::Y, |face| face.normal.as_dvec3());
     let has_inside = part.faces.len() > 2;
-    if has_inside && height <= 0.0 {
-        let distance = height - radius;
+    if has_inside && highest <= 0.0 || top.is_some_and(|face| is_over(point, part, face)) {
+        let distance = highest - radius;
         return Closest { point: point - outward * distance, distance, normal: outward };
     }
     let mut closest = DVec3::INFINITY;
-    for corners in part.faces.iter().flat_map(|face| fan(part, face)) {
+    let seen = part.faces.iter().filter(|face| !has_inside || height(face) > 0.0);
+    for corners in seen.flat_map(|face| fan(part, face)) {
         let candidate = on_triangle(point, corners);
         if candidate.distance_squared(point) < closest.distance_squared(point) {
             closest = candidate;
         }
     }
     Closest::around(point, closest, radius, outward)
+}
+
+/// Whether a point is straight above or below a face.
+fn is_over(point: DVec3, part: &Convex, face: &Face) -> bool {
+    let normal = face.normal.as_dvec3();
+    let mut corners = part.corners(*face).map(|(_, corner)| corner.as_dvec3());
+    let Some(first) = corners.next() else { return false };
+    let mut last = first;
+    for corner in corners.chain([first]) {
+        if (corner - last).cross(point - last).dot(normal) < 0.0 {
+            return false;
+        }
+        last = corner;
+    }
+    true
 }
 
 fn on_triangle(point: DVec3, corners: [Vec3; 3]) -> DVec3 {
