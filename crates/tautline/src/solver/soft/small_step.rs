@@ -7,10 +7,13 @@ use super::attach::Moment;
 use super::elastic::Stiffen;
 use super::gas;
 use super::hinge;
-use super::patch::{Cone, cone_of};
+use super::hot::Contacts;
+use super::meet::part_pair;
 use super::piece::{Layout, Piece};
 use super::points::SmallStep;
+use super::sheet::Sheet;
 use super::solid::Solid;
+use super::stick::Span;
 use super::strand::Sheeting;
 use super::thread::Pivot;
 use super::touch::{self, Push, Skin};
@@ -108,7 +111,7 @@ impl Kernel for Integrate<'_> {
             piece.fastest = points.integrate::<L>(piece.places.clone(), step);
         }
         for &(place, motion) in led.iter() {
-            points.lead(place, motion);
+            points.shift(place, motion);
         }
     }
 }
@@ -234,13 +237,15 @@ impl SoftSolver {
             if piece.is_rope() {
                 continue;
             }
-            for tile in &piece.tiles {
-                let cone = match &piece.layout {
-                    Layout::Sheet(sheet) => cone_of::<L>(&sheet.grid, tile, &self.points),
-                    Layout::Loose(_) | Layout::Solid(_) | Layout::Rope | Layout::Net(_) => Cone::ALL,
-                };
-                self.meetings.update_tile::<L>(number, &self.points, cone);
-                number += 1;
+            let tiles = number..number + piece.tiles.len();
+            number = tiles.end;
+            for tile in tiles.clone() {
+                self.meetings.update_tile::<L>(tile, &self.points);
+            }
+            if let Layout::Sheet(sheet) = &piece.layout {
+                for tile in tiles {
+                    self.meetings.update_cone::<L>(tile, &sheet.grid, &self.points);
+                }
             }
         }
         // What has moved since the step began has in its first look moved for one small step only.
@@ -253,7 +258,9 @@ impl SoftSolver {
         let fastest = self.pieces.iter().map(|piece| piece.fastest).fold(0.0, f32::max);
         let thinnest = self.pieces.iter().map(|piece| piece.thickness).fold(f32::INFINITY, f32::min);
         let margin = 2.0 * HASTE * LOOK_EVERY as f32 * fastest + 0.5 * thinnest;
-        self.pieces.iter_mut().for_each(|piece| piece.fit_boxes::<L>(&self.points));
+        for piece in &mut self.pieces {
+            piece.fit_boxes::<L>(&self.points);
+        }
         let is_cloth = |(_, piece): &(usize, &Piece)| !piece.is_rope();
         let sheets = self.pieces.iter().enumerate().filter(is_cloth).map(|(number, piece)| Sheeting {
             piece: number as u32,
@@ -299,35 +306,42 @@ impl Kernel for SweepWindows<'_, '_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let SoftSolver { points, pieces, lightened, touches, done, saved, .. } = self.solver;
+        let SoftSolver { points, pieces, lightened, touches, strands, meetings, done, .. } = self.solver;
         let push = self.timing.push();
         for piece in pieces {
             let Layout::Sheet(sheet) = &mut piece.layout else { continue };
-            let (grid, weave) = (sheet.grid, sheet.weave);
+            let Sheet { grid, weave, windows, .. } = &mut **sheet;
+            let is_fine = grid.columns.max(grid.rows) >= FINE;
+            let tolerance = if is_fine { HOT_AND_FINE } else { HOT };
             if done.is_multiple_of(HOT_EVERY) {
-                let fineness = grid.columns.max(grid.rows);
-                let tolerance = if fineness < FINE { 0.02 } else { 0.04 };
-                sheet.windows.find::<L>(&grid, &weave, points, tolerance);
-                sheet.windows.list_touches(&grid, touches);
+                windows.find::<L>(grid, weave, points, tolerance);
+                windows.list_members(grid);
+                windows.list_touches(grid, touches);
+                windows.list_meetings(grid, &strands.brushes, meetings.near());
             }
-            let windows = sheet.windows.windows.iter().zip(&sheet.windows.touches);
-            for (window, listed) in windows.filter(|(_, listed)| !listed.is_empty()) {
+            let limit = COOL * tolerance;
+            let limits = weave.map(|span| Span { low: 0.0, high: span.high * (1.0 + limit), ..span });
+            for (window, contacts) in windows.windows.iter().zip(&windows.contacts) {
+                let Contacts { touches: listed, brushes, pairs } = contacts;
                 // What moves in turn is pushed once in a small step: what it gets is to be in the velocity of what pushes.
                 let solid_of = |number: &u32| &self.solids[touches[*number as usize].solid as usize];
-                if listed.iter().any(|number| solid_of(number).inverse_mass > 0.0) {
+                let has_mover = listed.iter().any(|number| solid_of(number).inverse_mass > 0.0);
+                if contacts.is_empty() || has_mover {
                     continue;
                 }
-                window.save(&grid, &points.position, saved);
-                for _ in 0..PASSES {
-                    let (mut moving, masses) = points.moving();
-                    grid.sweep::<L>(&mut moving, masses, window, &weave);
-                    for &number in listed {
-                        let touch = &mut touches[number as usize];
-                        let solid = &mut self.solids[touch.solid as usize];
-                        touch.solve_again::<L>(points, lightened, solid, push);
-                    }
+                let (mut moving, masses) = points.moving();
+                grid.sweep::<L>(&mut moving, masses, window, &limits);
+                for &([a, b], distance) in pairs {
+                    part_pair(points, [a as usize, b as usize], (distance, 0.0), 0.0);
                 }
-                window.still(&grid, points, saved);
+                for &number in brushes {
+                    strands.brushes[number as usize].part(points, 0.0);
+                }
+                for &number in listed {
+                    let touch = &mut touches[number as usize];
+                    let solid = &mut self.solids[touch.solid as usize];
+                    touch.solve_again::<L>(points, lightened, solid, push);
+                }
             }
         }
     }
@@ -335,12 +349,16 @@ impl Kernel for SweepWindows<'_, '_> {
 
 /// How often the segments of a net are swept in a small step.
 const NET_SWEEPS: u32 = 4;
-/// Hot windows are looked for once in so many small steps.
-const HOT_EVERY: u32 = 4;
-/// How often a hot window is swept.
-const PASSES: u32 = 4;
-/// From so many particles along a side on, what is hot is twice as long.
+/// Hot windows are looked for once in so many small steps: whenever what may touch has been, of which they keep the numbers.
+const HOT_EVERY: u32 = LOOK_EVERY;
+/// By what share of its length an edge is longer that is hot, …
+const HOT: f32 = 0.03;
+/// … in sheets of …
+const HOT_AND_FINE: f32 = 0.045;
+/// … so many particles along a side.
 const FINE: usize = 80;
+/// To what share of that it is pulled in.
+const COOL: f32 = 0.8;
 
 /// Moves all out of what is solid.
 struct PushOut<'a, 'b> {
