@@ -88,6 +88,26 @@ impl Points {
         add(&mut self.remainder, place, shift);
     }
 
+    /// Moves a held particle on by `motion` (m), to the bit.
+    pub(super) fn lead(&mut self, place: usize, motion: Vec3) {
+        let at = self.at(place);
+        set(&mut self.start, place, at);
+        set(&mut self.offset, place, motion);
+        set(&mut self.remainder, place, Vec3::ZERO);
+    }
+
+    /// Ends a substep: nothing is carried on that the store has no room for, so that substeps are as steps.
+    pub(super) fn settle(&mut self) {
+        let Self { start, offset, remainder, .. } = self;
+        for ((start, offset), remainder) in start.iter_mut().zip(offset).zip(remainder) {
+            for ((start, offset), remainder) in start.iter_mut().zip(offset).zip(remainder) {
+                let motion = *offset - *remainder;
+                *start += *offset;
+                (*offset, *remainder) = (0.0, -motion);
+            }
+        }
+    }
+
     /// How far a particle has moved in this small step, in m.
     #[inline(always)]
     pub(super) fn motion(&self, place: usize) -> Vec3 {

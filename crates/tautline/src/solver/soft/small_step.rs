@@ -89,6 +89,7 @@ impl SoftSolver {
             solids.iter_mut().for_each(Solid::advance);
             self.done += 1;
         }
+        self.points.settle();
     }
 }
 
@@ -111,7 +112,7 @@ impl Kernel for Integrate<'_> {
             piece.fastest = points.integrate::<L>(piece.places.clone(), step);
         }
         for &(place, motion) in led.iter() {
-            points.shift(place, motion);
+            points.lead(place, motion);
         }
     }
 }

@@ -96,9 +96,9 @@ fn a_led_particle_moves_as_told() {
     let start = falling();
     let (mut points, _) = on_all(|| Integrate(&start, step(1.0), 1));
     let motion = Vec3::new(0.25, 0.0, -0.5);
-    points.shift(0, motion);
+    points.lead(0, motion);
     assert!(points.at(0).distance(start.at(0) + motion) < 1e-7);
-    assert!(points.motion(0).distance(motion) < 1e-7);
+    assert_eq!(points.motion(0), motion);
 }
 
 /// 100 m from the origin, numbers are 8 µm apart.
