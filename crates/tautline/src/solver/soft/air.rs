@@ -9,7 +9,7 @@ use std::ops::Range;
 use glam::Vec3;
 
 use super::SoftSolver;
-use super::points::{Points, get, set};
+use super::points::Points;
 use super::small_step::Timing;
 use crate::body::AirGrip;
 use crate::norm::Norm;
@@ -53,10 +53,10 @@ impl Sail {
         for (place, (front, lift)) in self.places.clone().zip(self.fronts.iter().zip(&self.lifts)) {
             let by_mass = scale * points.inverse_mass[place];
             if by_mass > 0.0 && *front > 0.0 {
-                let motion = get(&points.displacement, place);
+                let motion = points.motion(place);
                 let against = wind - motion;
                 let (slowed, across) = (by_mass * self.grip.drag * front, *lift * (by_mass * self.grip.lift));
-                set(&mut points.displacement, place, motion + change(against, slowed, across));
+                points.set_motion(place, motion + change(against, slowed, across));
             }
         }
     }
@@ -75,8 +75,7 @@ impl Sail {
                 continue;
             }
             for place in corners {
-                let (front, lift) =
-                    exposure(doubled / size, size / 6.0, wind - get(&points.displacement, place));
+                let (front, lift) = exposure(doubled / size, size / 6.0, wind - points.motion(place));
                 self.fronts[place - self.places.start] += front;
                 self.lifts[place - self.places.start] += lift;
             }

@@ -83,11 +83,11 @@ impl Batch {
         let (mut between, mut before, mut free) = ([Row::ZERO; 3], [Row::ZERO; 3], [Row::ZERO; 2]);
         for lane in 0..self.count {
             let (a, b) = (self.ends[0][lane] as usize, self.ends[1][lane] as usize);
-            for (row, numbers) in between.iter_mut().zip(&points.position) {
+            for (row, numbers) in before.iter_mut().zip(&points.start) {
                 row.0[lane] = numbers[b] - numbers[a];
             }
-            for (axis, numbers) in points.displacement.iter().enumerate() {
-                before[axis].0[lane] = between[axis].0[lane] - (numbers[b] - numbers[a]);
+            for (axis, numbers) in points.offset.iter().enumerate() {
+                between[axis].0[lane] = before[axis].0[lane] + (numbers[b] - numbers[a]);
             }
             (free[0].0[lane], free[1].0[lane]) = (masses[a], masses[b]);
         }

@@ -48,15 +48,16 @@ fn straighten_eight<L: Lanes>(
     compliance: L,
 ) {
     let masses = [L::read(&masses[a]), L::read(&masses[b]), L::read(&masses[c])];
-    let (at_a, at_b, at_c) = (knots.read::<L>(a), knots.read(b), knots.read(c));
-    let bend = at_a + at_c - (at_b + at_b);
+    let [from_a, off_a] = knots.read::<L>(a);
+    let ([from_b, off_b], [from_c, off_c]) = (knots.read(b), knots.read(c));
+    let bend = ((from_a - from_b) + (from_c - from_b)) + ((off_a - off_b) + (off_c - off_b));
     let mobility = masses[0] + masses[1] * L::splat(4.0) + masses[2];
     let is_whole = mobility.greater(L::splat(0.0));
     let multiplier =
         -(bend * is_whole.and(L::splat(1.0) / mobility.max(compliance + mobility * L::splat(0.5))));
-    knots.shift(a, at_a, multiplier * masses[0]);
-    knots.shift(b, at_b, multiplier * (masses[1] * L::splat(-2.0)));
-    knots.shift(c, at_c, multiplier * masses[2]);
+    knots.write(a, off_a + multiplier * masses[0]);
+    knots.write(b, off_b - multiplier * (masses[1] * L::splat(2.0)));
+    knots.write(c, off_c + multiplier * masses[2]);
 }
 
 #[cfg(test)]

@@ -15,7 +15,7 @@ use glam::{DMat3, DVec3, Vec3};
 use super::SoftSolver;
 use super::batch::without_sharing;
 use super::piece::Layout;
-use super::points::{Points, set};
+use super::points::Points;
 use crate::body::{Flesh, Material, RestShape};
 use crate::simd::{Kernel, LANES, Lanes, Row, Vec3x8, column};
 
@@ -118,10 +118,13 @@ fn keep_spin(points: &mut Points, places: Range<usize>, before: DVec3) {
         return;
     }
     let turn = inertia.inverse() * (before - momentum);
-    for place in places.filter(|place| points.inverse_mass[*place] > 0.0) {
+    for place in places {
+        if points.inverse_mass[place] == 0.0 {
+            continue;
+        }
         let more = turn.cross(points.at(place).as_dvec3() - center).as_vec3();
         let motion = points.motion(place) + more;
-        set(&mut points.displacement, place, motion);
+        points.set_motion(place, motion);
     }
 }
 
@@ -131,7 +134,7 @@ pub(super) struct Stiffen<'a>(pub(super) &'a mut SoftSolver, pub(super) f32);
 impl Kernel for Stiffen<'_> {
     type Output = ();
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn run<L: Lanes>(self) {
         let Self(SoftSolver { points, pieces, .. }, h) = self;
         for piece in pieces {
@@ -174,8 +177,10 @@ impl Eight {
         for lane in 0..self.count {
             let first = self.corners[0][lane] as usize;
             for (rows, corners) in edges.iter_mut().zip(&self.corners[1..]) {
-                for (row, numbers) in rows.iter_mut().zip(&points.position) {
-                    row.0[lane] = numbers[corners[lane] as usize] - numbers[first];
+                let numbers = points.start.iter().zip(&points.offset);
+                for (row, (start, offset)) in rows.iter_mut().zip(numbers) {
+                    let corner = corners[lane] as usize;
+                    row.0[lane] = (start[corner] - start[first]) + (offset[corner] - offset[first]);
                 }
             }
             for (row, corners) in masses.iter_mut().zip(&self.corners) {

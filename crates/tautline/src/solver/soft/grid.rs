@@ -7,6 +7,10 @@ use super::points::Moving;
 use super::stick::{Span, Spans, relax_run};
 use crate::simd::{LANES, Lanes};
 
+/// So many rows are relaxed in one colour before the next: a processor waits for what it has just written if it reads it
+/// otherwise aligned.
+const BLOCK: usize = 8;
+
 /// Where the particles of a sheet stand.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Grid {
@@ -70,10 +74,14 @@ impl Grid {
         // Sticks from even columns and from odd ones.
         let (from_even, from_odd) = (odd, columns.saturating_sub(1) / 2);
         let Range { start: top, end: bottom } = window.rows.clone();
-        for row in window.rows.clone() {
-            let place = first + row * stride;
-            relax_run(moving, masses, (place, place + half, from_even), along);
-            relax_run(moving, masses, (place + half, place + 1, from_odd), along);
+        for block in window.rows.clone().step_by(BLOCK) {
+            let places = (block..(block + BLOCK).min(bottom)).map(|row| first + row * stride);
+            for place in places.clone() {
+                relax_run(moving, masses, (place, place + half, from_even), along);
+            }
+            for place in places {
+                relax_run(moving, masses, (place + half, place + 1, from_odd), along);
+            }
         }
         for parity in 0..2 {
             for row in (top + parity..bottom - 1).step_by(2) {

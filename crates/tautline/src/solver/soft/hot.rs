@@ -1,26 +1,46 @@
 //! Hot windows: where a sheet is stretched although the sweep has gone over it, small parts of it are swept again.
 //!
-//! Almost all the strain that small steps leave is in a few edges, at corners of what the sheet lies on. Sweeping the whole
-//! sheet more often would mend the mean, which is fine already; sweeping about the worst edges mends the maximum.
+//! Almost all the strain that small steps leave is in a few edges: at corners of what the sheet lies on, and in folds that
+//! are pressed together. Sweeping the whole sheet more often would mend the mean, which is fine already; sweeping about the
+//! worst edges mends the maximum. What is in a window is pulled in to a limit and no further, and pushed by all that touches
+//! it: swept to its lengths, or through what it lies on, it would gain energy.
 
 use super::grid::{Grid, Weave, Window};
-use super::points::{Coordinates, Points};
+use super::points::Points;
+use super::strand::Brush;
 use super::touch::Touch;
-use crate::simd::{LANES, Lanes, Vec3x8};
+use crate::simd::{LANES, Lanes};
 
 /// How far a window reaches from the edge it is about, in edges.
 const RADIUS: usize = 6;
-/// The most windows of a sheet.
+/// The most windows of a sheet; no more than `Windows::members` has bits.
 const MOST: usize = 24;
-/// What share of a window's motion is not to become velocity.
-const STILL: f32 = 0.5;
 
 /// The hot windows of a sheet.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Windows {
     pub(super) windows: Vec<Window>,
-    /// Of each window, the numbers of the touches in it.
-    pub(super) touches: Vec<Vec<u32>>,
+    /// Of each window, what is in it.
+    pub(super) contacts: Vec<Contacts>,
+    /// By place from the sheet's first on: a bit for each window that it is in.
+    members: Vec<u32>,
+}
+
+/// What touches a window.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Contacts {
+    /// Numbers of touches.
+    pub(super) touches: Vec<u32>,
+    /// Numbers of brushes.
+    pub(super) brushes: Vec<u32>,
+    /// Pairs of particles, and how far they are kept apart (m).
+    pub(super) pairs: Vec<([u32; 2], f32)>,
+}
+
+impl Contacts {
+    pub(super) fn is_empty(&self) -> bool {
+        self.touches.is_empty() && self.brushes.is_empty() && self.pairs.is_empty()
+    }
 }
 
 impl Windows {
@@ -46,14 +66,62 @@ impl Windows {
         }
     }
 
+    /// Finds out which places are in which window.
+    pub(super) fn list_members(&mut self, grid: &Grid) {
+        self.members.clear();
+        self.members.resize(grid.places().len(), 0);
+        self.contacts.resize(self.windows.len(), Contacts::default());
+        for (number, window) in self.windows.iter().enumerate() {
+            for place in window.runs(grid).flatten() {
+                self.members[place - grid.start] |= 1 << number;
+            }
+        }
+    }
+
     /// Finds out which touches are in which window.
     pub(super) fn list_touches(&mut self, grid: &Grid, touches: &[Touch]) {
-        self.touches.resize(self.windows.len(), Vec::new());
-        for (window, listed) in self.windows.iter().zip(&mut self.touches) {
-            listed.clear();
-            let inside = |(_, touch): &(u32, &Touch)| window.holds(grid, touch.place());
-            listed.extend((0..).zip(touches).filter(inside).map(|(number, _)| number));
+        self.contacts.iter_mut().for_each(|contacts| contacts.touches.clear());
+        if self.windows.is_empty() {
+            return;
         }
+        for (number, touch) in (0..).zip(touches) {
+            let first = touch.place().wrapping_sub(grid.start);
+            let eight = self.members.get(first..first.saturating_add(LANES)).unwrap_or(&[]);
+            for window in bits(eight.iter().fold(0, |all, members| all | members)) {
+                self.contacts[window].touches.push(number);
+            }
+        }
+    }
+
+    /// Finds out which brushes and pairs are in which window.
+    pub(super) fn list_meetings(
+        &mut self,
+        grid: &Grid,
+        brushes: &[Brush],
+        pairs: impl Iterator<Item = ([u32; 2], f32)>,
+    ) {
+        for Contacts { brushes, pairs, .. } in &mut self.contacts {
+            brushes.clear();
+            pairs.clear();
+        }
+        if self.windows.is_empty() {
+            return;
+        }
+        for (number, brush) in (0..).zip(brushes) {
+            for window in bits(self.members_of(grid, brush.place)) {
+                self.contacts[window].brushes.push(number);
+            }
+        }
+        for (pair, distance) in pairs {
+            let members = self.members_of(grid, pair[0]) | self.members_of(grid, pair[1]);
+            for window in bits(members) {
+                self.contacts[window].pairs.push((pair, distance));
+            }
+        }
+    }
+
+    fn members_of(&self, grid: &Grid, place: u32) -> u32 {
+        self.members.get((place as usize).wrapping_sub(grid.start)).copied().unwrap_or(0)
     }
 
     /// Puts windows around those of eight sticks, in every second column, that are longer than `most` (m).
@@ -66,7 +134,7 @@ impl Windows {
         most: f32,
         at: (usize, usize),
     ) {
-        let between = Vec3x8::<L>::read(&points.position, b) - Vec3x8::read(&points.position, a);
+        let between = points.eight_at::<L>(b) - points.eight_at(a);
         let is_long = between.length_squared().greater(L::splat(most * most));
         let mut lanes = is_long.and(points.are_there::<L>(a)).and(points.are_there::<L>(b)).bits();
         while lanes != 0 {
@@ -93,17 +161,16 @@ impl Windows {
     }
 }
 
-impl Window {
-    /// Whether any of the eight places from `place` on is in it.
-    pub(super) fn holds(&self, grid: &Grid, place: usize) -> bool {
-        if !grid.places().contains(&place) {
-            return false;
-        }
-        let (row, in_row) = ((place - grid.start) / grid.stride(), (place - grid.start) % grid.stride());
-        let first = 2 * (in_row % grid.half);
-        self.rows.contains(&row) && first < self.columns.end && first + 2 * LANES > self.columns.start
-    }
+/// The numbers of the bits that are set.
+fn bits(mut set: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let lowest = (set != 0).then(|| set.trailing_zeros() as usize)?;
+        set &= set - 1;
+        Some(lowest)
+    })
+}
 
+impl Window {
     /// The runs of places that it is made of.
     fn runs(&self, grid: &Grid) -> impl Iterator<Item = std::ops::Range<usize>> + use<> {
         let (first, last) = (self.columns.start / 2, self.columns.end.div_ceil(2));
@@ -112,25 +179,5 @@ impl Window {
             let start = grid.start + row * grid.stride();
             [0, grid.half].map(|parity| start + parity + first..start + parity + last)
         })
-    }
-
-    /// Remembers where its particles are.
-    pub(super) fn save(&self, grid: &Grid, positions: &Coordinates, saved: &mut Coordinates) {
-        for (numbers, kept) in positions.iter().zip(saved) {
-            kept.clear();
-            self.runs(grid).for_each(|run| kept.extend_from_slice(&numbers[run]));
-        }
-    }
-
-    /// Takes a share of how its particles have moved since then out of their velocity.
-    pub(super) fn still(&self, grid: &Grid, points: &mut Points, saved: &Coordinates) {
-        for (axis, saved) in saved.iter().enumerate() {
-            let (positions, displacements) = (&points.position[axis], &mut points.displacement[axis]);
-            let mut before = saved.iter();
-            for place in self.runs(grid).flatten() {
-                let Some(before) = before.next() else { break };
-                displacements[place] -= STILL * (positions[place] - before);
-            }
-        }
     }
 }

@@ -7,12 +7,13 @@
 //! Every list is in the order of its particles, and the lists in that of their tiles, so that which pairs are near decides
 //! what happens, and not when lists were made.
 
-use super::patch::Cone;
-use super::points::{Coordinates, Points, get};
-use super::tile::{Bounds, MOST_EIGHTS, Tile, inside};
+use super::grid::Grid;
+use super::patch::{Cone, cone_of};
+use super::points::{Coordinates, Points, get, set};
+use super::tile::{Around, Bounds, MOST_EIGHTS, Tile, inside};
 use crate::constraint::Stick;
 use crate::norm::Norm;
-use crate::simd::{Lanes, Vec3x8};
+use crate::simd::{LANES, Lanes, Vec3x8};
 use glam::Vec3;
 
 /// Tiles that bend less than this (75°) together do not touch each other. Its cosine.
@@ -87,10 +88,13 @@ pub(super) struct Meetings {
     /// Where particles are in the material, in m, by place.
     pub(super) material: Coordinates,
     boxes: Vec<Bounds>,
+    /// The sides of the boxes, coordinate by coordinate: as many as make whole eights.
+    lows: Coordinates,
+    highs: Coordinates,
     cones: Vec<Cone>,
     /// How tiles have moved since the last look: bounds of what their particles did.
     motions: Vec<Bounds>,
-    /// Positions at the last look.
+    /// Positions at the last look, which is now while there is one.
     base: Coordinates,
     lists: Vec<List>,
     spare: Vec<List>,
@@ -124,6 +128,7 @@ impl Meetings {
         self.tiles.clear();
         self.member_of.clear();
         self.lists.clear();
+        self.lows.iter_mut().chain(&mut self.highs).for_each(Vec::clear);
         for numbers in &mut self.material {
             numbers.clear();
             numbers.resize(places, 0.0);
@@ -143,6 +148,10 @@ impl Meetings {
         self.member_of.resize(self.tiles.len(), self.members.len() as u32);
         self.members.push(Member { meets_itself, distance, exempt, friction });
         self.boxes.resize(self.tiles.len(), Bounds::EMPTY);
+        let eights = self.tiles.len().next_multiple_of(LANES);
+        self.lows.iter_mut().for_each(|sides| sides.resize(eights, f32::INFINITY));
+        self.highs.iter_mut().for_each(|sides| sides.resize(eights, f32::NEG_INFINITY));
+        self.cones.clear();
         self.cones.resize(self.tiles.len(), Cone::ALL);
         self.motions.resize(self.tiles.len(), Bounds::EMPTY);
     }
@@ -150,7 +159,8 @@ impl Meetings {
     /// Forgets all lists, so that the next ones follow from where all is.
     pub(super) fn forget(&mut self, points: &Points) {
         self.spare.append(&mut self.lists);
-        self.base.clone_from(&points.position);
+        // Nothing has moved from there yet.
+        self.base.clone_from(&points.start);
     }
 
     /// Tells which places are attached to each other: they do not push.
@@ -165,33 +175,27 @@ impl Meetings {
     }
 
     /// The tile of this number, to be brought up to date.
-    #[inline(always)]
-    pub(super) fn update_tile<L: Lanes>(&mut self, tile: usize, points: &Points, cone: Cone) {
-        self.cones[tile] = cone;
-        self.boxes[tile] = self.tiles[tile].bounds::<L>(points);
-        self.motions[tile] = self.motion_of::<L>(tile, points);
-    }
-
-    /// Bounds of how the particles of a tile have moved since the last look, which this is.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-    fn motion_of<L: Lanes>(&mut self, tile: usize, points: &Points) -> Bounds {
-        let mut low = Vec3x8::<L>::splat(Vec3::INFINITY);
-        let mut high = Vec3x8::<L>::splat(Vec3::NEG_INFINITY);
+    pub(super) fn update_tile<L: Lanes>(&mut self, tile: usize, points: &Points) {
+        let (mut around, mut motion) = (Around::<L>::nothing(), Around::nothing());
         for &place in &self.tiles[tile].eights {
             let place = place as usize;
             let is_there = points.are_there::<L>(place);
-            let now = Vec3x8::<L>::read(&points.position, place);
-            let moved = now - Vec3x8::read(&self.base, place);
+            let now = points.eight_at::<L>(place);
+            around.add(is_there, now);
+            motion.add(is_there, now - Vec3x8::read(&self.base, place));
             now.write(&mut self.base, place);
-            let below = Vec3x8::new(low.x.min(moved.x), low.y.min(moved.y), low.z.min(moved.z));
-            let above = Vec3x8::new(high.x.max(moved.x), high.y.max(moved.y), high.z.max(moved.z));
-            (low, high) = (Vec3x8::select(is_there, below, low), Vec3x8::select(is_there, above, high));
         }
-        let low = -low;
-        Bounds {
-            low: -Vec3::new(low.x.largest(), low.y.largest(), low.z.largest()),
-            high: Vec3::new(high.x.largest(), high.y.largest(), high.z.largest()),
-        }
+        let bounds = around.bounds();
+        (self.boxes[tile], self.motions[tile]) = (bounds, motion.bounds());
+        set(&mut self.lows, tile, bounds.low);
+        set(&mut self.highs, tile, bounds.high);
+    }
+
+    /// Tells which way a tile of a sheet faces. All tiles are up to date.
+    #[inline(always)]
+    pub(super) fn update_cone<L: Lanes>(&mut self, tile: usize, grid: &Grid, points: &Points) {
+        self.cones[tile] = cone_of::<L>(grid, &self.tiles[tile], &self.base, points);
     }
 
     /// Brings all lists up to date. Tiles have been. `ahead` is how long it is until the next look, in times since the last.
@@ -199,8 +203,11 @@ impl Meetings {
     pub(super) fn look<L: Lanes>(&mut self, points: &Points, ahead: f32) {
         let mut old = std::mem::take(&mut self.lists).into_iter().peekable();
         let mut lists = Vec::new();
+        let farthest = self.members.iter().map(|member| member.distance).fold(0.0, f32::max);
+        let mut nearby = Vec::new();
         for a in 0..self.tiles.len() {
-            for b in a..self.tiles.len() {
+            self.find_nearby::<L>(a, farthest * (1.0 + MARGIN), &mut nearby);
+            for &b in &nearby {
                 let Some((distance, friction)) = self.may_meet(a, b) else { continue };
                 let tiles = [a as u32, b as u32];
                 while let Some(gone) = old.next_if(|list| list.tiles < tiles) {
@@ -218,12 +225,31 @@ impl Meetings {
                     list.moved = 0.0;
                     self.list_pairs::<L>(points, &mut list);
                 }
-                list.keep_near(points, distance * (1.0 + PUSH) + soon);
+                list.keep_near(&self.base, distance * (1.0 + PUSH) + soon);
                 lists.push(list);
             }
         }
         self.spare.extend(old);
         self.lists = lists;
+    }
+
+    /// The tiles from `tile` on whose boxes are no further from its own than `reach` (m).
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+    fn find_nearby<L: Lanes>(&self, tile: usize, reach: f32, out: &mut Vec<usize>) {
+        out.clear();
+        let own = self.boxes[tile].grown(reach);
+        let (low, high) = (Vec3x8::<L>::splat(own.low), Vec3x8::<L>::splat(own.high));
+        for first in (tile - tile % LANES..self.tiles.len()).step_by(LANES) {
+            let (lows, highs) = (Vec3x8::<L>::read(&self.lows, first), Vec3x8::<L>::read(&self.highs, first));
+            let mut lanes = !(apart(high, lows) | apart(highs, low)) & ((1 << LANES) - 1);
+            while lanes != 0 {
+                let other = first + lanes.trailing_zeros() as usize;
+                lanes &= lanes - 1;
+                if other >= tile {
+                    out.push(other);
+                }
+            }
+        }
     }
 
     /// How far apart the particles of two tiles are kept, and their friction; `None` if they do not meet.
@@ -260,18 +286,18 @@ impl Meetings {
         list.pairs.clear();
         let (mut others, mut count) = ([Eight { place: 0, at: Vec3x8::<L>::zero() }; MOST_EIGHTS], 0);
         for &place in &self.tiles[b].eights {
-            if inside::<L>(points, place as usize, &near_a) != 0 {
-                let at = Vec3x8::read(&points.position, place as usize);
+            if inside::<L>(points, &self.base, place as usize, &near_a) != 0 {
+                let at = Vec3x8::read(&self.base, place as usize);
                 others[count] = Eight { place: place as usize, at };
                 count += 1;
             }
         }
         for &first in &self.tiles[a].eights {
-            let mut lanes = inside::<L>(points, first as usize, &near_b);
+            let mut lanes = inside::<L>(points, &self.base, first as usize, &near_b);
             while lanes != 0 {
                 let place = first as usize + lanes.trailing_zeros() as usize;
                 lanes &= lanes - 1;
-                let at = Vec3x8::splat(points.at(place));
+                let at = Vec3x8::splat(get(&self.base, place));
                 for other in &others[..count] {
                     // Where there is no particle is near none.
                     let is_near = reach_squared.greater((other.at - at).length_squared());
@@ -320,11 +346,17 @@ impl Meetings {
         }
     }
 
+    /// The pairs that may come too close until the next look, and how far each is kept apart, in m.
+    pub(super) fn near(&self) -> impl Iterator<Item = ([u32; 2], f32)> {
+        self.lists.iter().flat_map(|list| list.near.iter().map(|&pair| (pair, list.distance)))
+    }
+
     /// Moves all pairs apart that are too close, with friction; what was too close before by `recovery` (m) at most.
     pub(super) fn part(&self, points: &mut Points, recovery: f32) {
         for list in &self.lists {
+            let most = recovery.max(HURRY * list.distance);
             for &[a, b] in &list.near {
-                part_pair(points, [a as usize, b as usize], (list.distance, recovery), list.friction);
+                part_pair(points, [a as usize, b as usize], (list.distance, most), list.friction);
             }
         }
     }
@@ -332,17 +364,32 @@ impl Meetings {
 
 impl List {
     /// Finds the pairs that are no further apart than this, in m.
-    fn keep_near(&mut self, points: &Points, reach: f32) {
+    #[inline(always)]
+    fn keep_near(&mut self, positions: &Coordinates, reach: f32) {
         self.near.clear();
-        let is_near = |&&[a, b]: &&[u32; 2]| {
-            (points.at(b as usize) - points.at(a as usize)).length_squared() < reach * reach
-        };
-        self.near.extend(self.pairs.iter().filter(is_near));
+        for &[a, b] in &self.pairs {
+            let apart = get(positions, b as usize) - get(positions, a as usize);
+            if apart.length_squared() < reach * reach {
+                self.near.push([a, b]);
+            }
+        }
     }
 }
 
+/// Bits of the lanes in which a low side is beyond a high one.
+#[inline(always)]
+fn apart<L: Lanes>(high: Vec3x8<L>, low: Vec3x8<L>) -> u32 {
+    low.x.greater(high.x).bits() | low.y.greater(high.y).bits() | low.z.greater(high.z).bits()
+}
+
+/// Moves a pair to its distance (m), with friction; what was too close before by `most` (m) at most.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-fn part_pair(points: &mut Points, [a, b]: [usize; 2], (distance, recovery): (f32, f32), friction: f32) {
+pub(super) fn part_pair(
+    points: &mut Points,
+    [a, b]: [usize; 2],
+    (distance, most): (f32, f32),
+    friction: f32,
+) {
     let between = points.at(b) - points.at(a);
     let squared = between.length_squared();
     let masses = [points.inverse_mass[a], points.inverse_mass[b]];
@@ -360,7 +407,7 @@ fn part_pair(points: &mut Points, [a, b]: [usize; 2], (distance, recovery): (f32
     let braked = depth.min((-along).max(0.0));
     // What is deeper than it moved in is moved out without velocity.
     let apart = (normal * braked - across * friction) / free;
-    let out = normal * ((depth - braked).min(recovery.max(HURRY * distance)) / free);
+    let out = normal * ((depth - braked).min(most) / free);
     points.shift(a, -(apart * masses[0]));
     points.shift(b, apart * masses[1]);
     points.carry(a, -(out * masses[0]));
@@ -368,7 +415,7 @@ fn part_pair(points: &mut Points, [a, b]: [usize; 2], (distance, recovery): (f32
 }
 
 /// Where every place of a sheet is in the material, in m.
-pub(super) fn lay_flat(grid: &super::grid::Grid, edges: [f32; 2], material: &mut Coordinates) {
+pub(super) fn lay_flat(grid: &Grid, edges: [f32; 2], material: &mut Coordinates) {
     for row in 0..grid.rows {
         for column in 0..grid.columns {
             let place = grid.place(row, column);

@@ -46,7 +46,7 @@ use crate::solver::substep::RigidSolver;
 use attach::Ties;
 use meet::Meetings;
 use piece::{Layout, Piece, span_of};
-use points::{Coordinates, Points, get, set};
+use points::{Points, set};
 use rest::Rest;
 use ropes::{Bundle, Rope};
 use small_step::Timing;
@@ -79,8 +79,6 @@ pub(crate) struct SoftSolver {
     lightened: Vec<f32>,
     /// Held particles that are led along: their places, and their motion in a small step (m).
     led: Vec<(usize, Vec3)>,
-    /// Where the particles of a window were.
-    saved: Coordinates,
     /// Small steps made in this step.
     done: u32,
     /// Small steps that there are in it.
@@ -162,8 +160,7 @@ impl SoftSolver {
             } else if displacement != Vec3::ZERO {
                 self.led.push((place, displacement));
             }
-            set(&mut self.points.position, place, particles.position[i]);
-            set(&mut self.points.displacement, place, displacement);
+            self.points.put(place, particles.position[i], displacement);
             self.points.inverse_mass[place] = mass;
         }
     }
@@ -261,8 +258,8 @@ impl SoftSolver {
     /// Changes how a particle of an awake cloth or rope moves, by so much (m/s).
     pub(crate) fn push(&mut self, body: usize, particle: usize, change: Vec3, h: f32) {
         if let Some(place) = self.place(body, particle) {
-            let motion = get(&self.points.displacement, place) + change * (h / self.small_steps(h));
-            set(&mut self.points.displacement, place, motion);
+            let motion = self.points.motion(place) + change * (h / self.small_steps(h));
+            self.points.set_motion(place, motion);
         }
     }
 

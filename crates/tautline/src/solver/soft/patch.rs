@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::grid::Grid;
-use super::points::Points;
+use super::points::{Coordinates, Points};
 use super::tile::Tile;
 use crate::norm::Norm;
 use crate::simd::{LANES, Lanes, Vec3x8};
@@ -32,13 +32,13 @@ impl Cone {
     }
 }
 
-/// The cone of a sheet's tile, from the diagonals of its cells.
+/// The cone of a sheet's tile, whose particles are at `positions`, from the diagonals of its cells.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-pub(super) fn cone_of<L: Lanes>(grid: &Grid, tile: &Tile, points: &Points) -> Cone {
+pub(super) fn cone_of<L: Lanes>(grid: &Grid, tile: &Tile, positions: &Coordinates, points: &Points) -> Cone {
     let mut normals = [Vec3x8::<L>::zero(); super::tile::MOST_EIGHTS];
     let mut sum = Vec3x8::<L>::zero();
     for (normal, &place) in normals.iter_mut().zip(&tile.eights) {
-        *normal = cell_normals(grid, place as usize, points);
+        *normal = cell_normals(grid, place as usize, positions, points);
         sum = sum + *normal;
     }
     let axis = total(sum);
@@ -58,7 +58,7 @@ pub(super) fn cone_of<L: Lanes>(grid: &Grid, tile: &Tile, points: &Points) -> Co
 
 /// Unit normals of the eight cells whose first corners are these places; 0 where there is no cell.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-fn cell_normals<L: Lanes>(grid: &Grid, place: usize, points: &Points) -> Vec3x8<L> {
+fn cell_normals<L: Lanes>(grid: &Grid, place: usize, positions: &Coordinates, points: &Points) -> Vec3x8<L> {
     let (stride, half) = (grid.stride(), grid.half);
     let row = (place - grid.start) / stride;
     if row + 1 >= grid.rows {
@@ -68,8 +68,8 @@ fn cell_normals<L: Lanes>(grid: &Grid, place: usize, points: &Points) -> Vec3x8<
     let right = if is_odd { place - half + 1 } else { place + half };
     let at = |place: usize| place;
     let there = points.are_there::<L>(place).and(points.are_there::<L>(at(right)));
-    let down = Vec3x8::<L>::read(&points.position, right + stride) - Vec3x8::read(&points.position, place);
-    let up = Vec3x8::<L>::read(&points.position, place + stride) - Vec3x8::read(&points.position, right);
+    let down = Vec3x8::<L>::read(positions, right + stride) - Vec3x8::read(positions, place);
+    let up = Vec3x8::<L>::read(positions, place + stride) - Vec3x8::read(positions, right);
     let across = down.cross(up);
     let length = across.length_squared().max(L::splat(1e-30)).sqrt();
     across * there.and(L::splat(1.0) / length)

@@ -10,15 +10,17 @@ pub(super) type Coordinates = [Vec<f32>; 3];
 
 /// Particles by place. Where a place is of no particle, it weighs nothing (inverse mass 0) and is far from all others.
 ///
-/// The Verlet pair is kept as in the store, a position and a displacement, and whatever moves a particle changes both
-/// alike. Were motion found by comparing positions, it would be rounded to their grid in every small step, and impulses
-/// that are opposite would not be equal.
+/// A particle is at x = x₀ + e, and has moved by d = e − r in this small step. All that moves it adds to e, which is small,
+/// so that what two particles give each other is rounded alike; x₀, which is large, is rounded once in a small step, and
+/// what that leaves is carried on as r. Were a large number rounded with every correction, momentum would drift.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Points {
-    /// x, in m.
-    pub(super) position: Coordinates,
-    /// d = x − x⁻, in m: the motion over a small step.
-    pub(super) displacement: Coordinates,
+    /// x₀, in m: where the small step began, to the nearest number.
+    pub(super) start: Coordinates,
+    /// e, in m: how far the particle is from there.
+    pub(super) offset: Coordinates,
+    /// r, in m: how far it was from there when the small step began.
+    pub(super) remainder: Coordinates,
     /// What forces add to the displacement in a small step, in m; as long as the others only if there are any.
     pub(super) kick: Coordinates,
     /// 1/m, in 1/kg; 0 = held.
@@ -34,11 +36,11 @@ impl Points {
     /// Forgets all, and makes room for so many places; a multiple of eight, and eight more that only reading needs.
     pub(super) fn reset(&mut self, places: usize) {
         let length = places.next_multiple_of(LANES) + LANES;
-        for numbers in [&mut self.position, &mut self.displacement].into_iter().flatten() {
+        for numbers in [&mut self.start, &mut self.offset, &mut self.remainder].into_iter().flatten() {
             numbers.clear();
             numbers.resize(length, 0.0);
         }
-        for (place, x) in self.position[0].iter_mut().enumerate() {
+        for (place, x) in self.start[0].iter_mut().enumerate() {
             *x = NOWHERE * (1.0 + place as f32 / 1024.0);
         }
         self.kick.iter_mut().for_each(Vec::clear);
@@ -48,45 +50,80 @@ impl Points {
         }
     }
 
+    /// Puts a particle where a small step begins, or ends, that has moved it by `motion` (m).
+    pub(super) fn put(&mut self, place: usize, position: Vec3, motion: Vec3) {
+        set(&mut self.start, place, position);
+        set(&mut self.offset, place, Vec3::ZERO);
+        set(&mut self.remainder, place, -motion);
+    }
+
     #[inline(always)]
     pub(super) fn at(&self, place: usize) -> Vec3 {
-        get(&self.position, place)
+        get(&self.start, place) + get(&self.offset, place)
+    }
+
+    /// Where the eight particles from `place` on are, in m.
+    #[inline(always)]
+    pub(super) fn eight_at<L: Lanes>(&self, place: usize) -> Vec3x8<L> {
+        Vec3x8::read(&self.start, place) + Vec3x8::read(&self.offset, place)
     }
 
     /// What kernels move, and the inverse masses of the particles.
     #[inline(always)]
     pub(super) fn moving(&mut self) -> (Moving<'_>, &[f32]) {
-        let Self { position, displacement, inverse_mass, .. } = self;
-        (Moving { position, displacement }, inverse_mass)
+        let Self { start, offset, inverse_mass, .. } = self;
+        (Moving { start, offset }, inverse_mass)
     }
 
     /// Moves a particle by `shift` (m), which becomes velocity.
     #[inline(always)]
     pub(super) fn shift(&mut self, place: usize, shift: Vec3) {
-        self.carry(place, shift);
-        for (numbers, by) in self.displacement.iter_mut().zip(shift.to_array()) {
-            numbers[place] += by;
-        }
+        add(&mut self.offset, place, shift);
     }
 
     /// Moves a particle by `shift` (m) without giving it velocity.
     #[inline(always)]
     pub(super) fn carry(&mut self, place: usize, shift: Vec3) {
-        for (numbers, by) in self.position.iter_mut().zip(shift.to_array()) {
-            numbers[place] += by;
-        }
+        add(&mut self.offset, place, shift);
+        add(&mut self.remainder, place, shift);
     }
 
-    /// Moves a held particle on by `motion` (m).
+    /// Moves a held particle on by `motion` (m), to the bit.
     pub(super) fn lead(&mut self, place: usize, motion: Vec3) {
-        self.carry(place, motion);
-        set(&mut self.displacement, place, motion);
+        let at = self.at(place);
+        set(&mut self.start, place, at);
+        set(&mut self.offset, place, motion);
+        set(&mut self.remainder, place, Vec3::ZERO);
+    }
+
+    /// Ends a substep: nothing is carried on that the store has no room for, so that substeps are as steps.
+    pub(super) fn settle(&mut self) {
+        let Self { start, offset, remainder, .. } = self;
+        for ((start, offset), remainder) in start.iter_mut().zip(offset).zip(remainder) {
+            for ((start, offset), remainder) in start.iter_mut().zip(offset).zip(remainder) {
+                let motion = *offset - *remainder;
+                *start += *offset;
+                (*offset, *remainder) = (0.0, -motion);
+            }
+        }
     }
 
     /// How far a particle has moved in this small step, in m.
     #[inline(always)]
     pub(super) fn motion(&self, place: usize) -> Vec3 {
-        get(&self.displacement, place)
+        get(&self.offset, place) - get(&self.remainder, place)
+    }
+
+    /// How far the eight particles from `place` on have moved in this small step, in m.
+    #[inline(always)]
+    pub(super) fn motion_of_eight<L: Lanes>(&self, place: usize) -> Vec3x8<L> {
+        Vec3x8::read(&self.offset, place) - Vec3x8::read(&self.remainder, place)
+    }
+
+    /// Has a particle moved by `motion` (m) in this small step, to where it is.
+    pub(super) fn set_motion(&mut self, place: usize, motion: Vec3) {
+        let offset = get(&self.offset, place);
+        set(&mut self.remainder, place, offset - motion);
     }
 
     /// Begins a small step (paper, Eq 1): gravity is added, and all moves on, each particle by `limit` (m) at most. Returns how
@@ -96,27 +133,39 @@ impl Points {
         let fall = Vec3x8::<L>::splat(step.fall);
         let (keep, limit, tiny) = (L::splat(step.keep), L::splat(step.limit), L::splat(1e-30));
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
-        let Self { position, displacement, kick, inverse_mass, .. } = self;
-        let (mut positions, mut displacements) = (Eights::of(position), Eights::of(displacement));
+        let Self { start, offset, remainder, kick, inverse_mass, .. } = self;
+        let (mut starts, mut offsets, mut remainders) =
+            (Eights::of(start), Eights::of(offset), Eights::of(remainder));
         let kicks = Eights::of(kick);
         let (masses, is_kicked) = (eights(inverse_mass), !kicks.0[0].is_empty());
         let (share, per_lively) = (L::splat(step.calming.share), L::splat(1.0 / step.calming.lively));
-        let mut fastest = zero;
+        let most = if step.calming.share > 0.0 { zero } else { limit * limit };
+        let (mut fastest, mut fastest_squared) = (zero, zero);
         let masses = &masses[..places.end / LANES];
         for (eight, mass) in masses.iter().enumerate().skip(places.start / LANES) {
             let is_free = L::read(mass).greater(zero);
-            let mut motion = displacements.read::<L>(eight) * keep + fall;
+            let moved = offsets.read::<L>(eight);
+            let mut motion = (moved - remainders.read(eight)) * keep + fall;
             if is_kicked {
                 motion = motion + kicks.read(eight);
             }
-            let length = motion.length_squared().max(tiny).sqrt();
-            let lost = share * (one - length * per_lively).max(zero);
-            motion = motion * is_free.and((limit / length).min(one - lost));
-            fastest = fastest.max(is_free.and(length.min(limit)));
-            displacements.write(eight, motion);
-            positions.write(eight, positions.read(eight) + motion);
+            let squared = motion.length_squared();
+            if squared.greater(most).bits() == 0 {
+                // Neither too fast nor to be calmed: nearly always.
+                motion = Vec3x8::new(is_free.and(motion.x), is_free.and(motion.y), is_free.and(motion.z));
+                fastest_squared = fastest_squared.max(is_free.and(squared));
+            } else {
+                let length = squared.max(tiny).sqrt();
+                let lost = share * (one - length * per_lively).max(zero);
+                motion = motion * is_free.and((limit / length).min(one - lost));
+                fastest = fastest.max(is_free.and(length.min(limit)));
+            }
+            let (begin, rest) = sum(starts.read(eight), moved);
+            starts.write(eight, begin);
+            remainders.write(eight, rest);
+            offsets.write(eight, rest + motion);
         }
-        fastest.largest()
+        fastest.max(fastest_squared.sqrt()).largest()
     }
 
     /// A mask of those of eight places where there is a particle.
@@ -138,61 +187,76 @@ pub(super) struct SmallStep {
     pub(super) calming: Calming,
 }
 
-/// Positions and displacements that a kernel moves.
+/// a + b, rounded, and what that leaves (Knuth, The Art of Computer Programming 2, 4.2.2, theorem B).
+#[inline(always)]
+fn sum<L: Lanes>(a: Vec3x8<L>, b: Vec3x8<L>) -> (Vec3x8<L>, Vec3x8<L>) {
+    let sum = a + b;
+    let of_b = sum - a;
+    (sum, (a - (sum - of_b)) + (b - of_b))
+}
+
+/// Particles that a kernel moves: where their small step began, and how far they are from there.
 pub(super) struct Moving<'a> {
-    pub(super) position: &'a mut Coordinates,
-    pub(super) displacement: &'a mut Coordinates,
+    pub(super) start: &'a Coordinates,
+    pub(super) offset: &'a mut Coordinates,
 }
 
 impl Moving<'_> {
     /// Moves the eight particles from `place` on.
     #[inline(always)]
     pub(super) fn shift<L: Lanes>(&mut self, place: usize, by: Vec3x8<L>) {
-        for numbers in [&mut *self.position, &mut *self.displacement] {
-            (Vec3x8::read(numbers, place) + by).write(numbers, place);
-        }
+        (Vec3x8::read(self.offset, place) + by).write(self.offset, place);
     }
 
     /// In groups of eight from the first place on.
     #[inline(always)]
     pub(super) fn eights(&mut self) -> MovingEights<'_> {
-        MovingEights { at: Eights::of(self.position), moved: Eights::of(self.displacement) }
+        MovingEights { start: of(self.start), offset: Eights::of(self.offset) }
     }
 
     /// Those of two runs of `length` places, from `a` and from `b` on, which do not overlap.
     #[inline(always)]
     pub(super) fn two_runs(&mut self, a: usize, b: usize, length: usize) -> [MovingEights<'_>; 2] {
-        let [at_a, at_b] = two_runs(self.position, a, b, length);
-        let [moved_a, moved_b] = two_runs(self.displacement, a, b, length);
-        [MovingEights { at: at_a, moved: moved_a }, MovingEights { at: at_b, moved: moved_b }]
+        let [offset_a, offset_b] = two_runs(self.offset, a, b, length);
+        let (start_a, start_b) = (run_of(self.start, a, length), run_of(self.start, b, length));
+        [MovingEights { start: start_a, offset: offset_a }, MovingEights { start: start_b, offset: offset_b }]
     }
 }
 
-/// Positions and displacements in groups of eight places.
+/// Moving particles in groups of eight places.
 pub(super) struct MovingEights<'a> {
-    at: Eights<'a>,
-    moved: Eights<'a>,
+    start: [&'a [[f32; LANES]]; 3],
+    offset: Eights<'a>,
 }
 
 impl MovingEights<'_> {
-    /// The positions of the eight of this number.
+    /// Where the small step of the eight of this number began, and how far they are from there.
     #[inline(always)]
-    pub(super) fn read<L: Lanes>(&self, eight: usize) -> Vec3x8<L> {
-        self.at.read(eight)
+    pub(super) fn read<L: Lanes>(&self, eight: usize) -> [Vec3x8<L>; 2] {
+        let [x, y, z] = self.start;
+        let start = Vec3x8::new(L::read(&x[eight]), L::read(&y[eight]), L::read(&z[eight]));
+        [start, self.offset.read(eight)]
     }
 
-    /// The positions of the eight of this number, and how they have moved in this small step.
+    /// Puts them so far from where their small step began.
     #[inline(always)]
-    pub(super) fn read_both<L: Lanes>(&self, eight: usize) -> [Vec3x8<L>; 2] {
-        [self.at.read(eight), self.moved.read(eight)]
+    pub(super) fn write<L: Lanes>(&mut self, eight: usize, offset: Vec3x8<L>) {
+        self.offset.write(eight, offset);
     }
+}
 
-    /// Moves them by `by` from `at`, where they are.
-    #[inline(always)]
-    pub(super) fn shift<L: Lanes>(&mut self, eight: usize, at: Vec3x8<L>, by: Vec3x8<L>) {
-        self.at.write(eight, at + by);
-        self.moved.write(eight, self.moved.read(eight) + by);
-    }
+#[inline(always)]
+fn of(numbers: &Coordinates) -> [&[[f32; LANES]]; 3] {
+    run_of(numbers, 0, numbers[0].len())
+}
+
+#[inline(always)]
+fn run_of(numbers: &Coordinates, first: usize, length: usize) -> [&[[f32; LANES]]; 3] {
+    let [x, y, z] = numbers;
+    let end = first + length;
+    let [x, y, z] = [eights(&x[first..end]), eights(&y[first..end]), eights(&z[first..end])];
+    let count = length / LANES;
+    [&x[..count], &y[..count], &z[..count]]
 }
 
 #[inline(always)]
@@ -252,6 +316,13 @@ pub(super) fn eights(numbers: &[f32]) -> &[[f32; LANES]] {
 #[inline(always)]
 pub(super) fn get(numbers: &Coordinates, place: usize) -> Vec3 {
     Vec3::new(numbers[0][place], numbers[1][place], numbers[2][place])
+}
+
+#[inline(always)]
+fn add(numbers: &mut Coordinates, place: usize, by: Vec3) {
+    for (numbers, by) in numbers.iter_mut().zip(by.to_array()) {
+        numbers[place] += by;
+    }
 }
 
 #[inline(always)]

@@ -28,8 +28,8 @@ pub(super) struct Bundle {
     /// Of what is swept: sticks that do not give.
     stiff: Vec<[Row; 3]>,
     mean_inverse_mass: f32,
-    position: Coordinates,
-    displacement: Coordinates,
+    start: Coordinates,
+    offset: Coordinates,
     masses: Vec<f32>,
 }
 
@@ -54,9 +54,9 @@ impl Bundle {
         let length = (knots + 1) * LANES;
         let zeros = || vec![0.0; length];
         // What is no knot is apart from its neighbours.
-        let position = [(0..length).map(|place| place as f32).collect(), zeros(), zeros()];
-        let displacement = [zeros(), zeros(), zeros()];
-        Self { ropes, knots, spans, stiff, mean_inverse_mass, position, displacement, masses: zeros() }
+        let start = [(0..length).map(|place| place as f32).collect(), zeros(), zeros()];
+        let offset = [zeros(), zeros(), zeros()];
+        Self { ropes, knots, spans, stiff, mean_inverse_mass, start, offset, masses: zeros() }
     }
 
     /// Solves all sticks of each rope together and sweeps once over them; again for ropes that carry much.
@@ -75,8 +75,8 @@ impl Bundle {
 
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn pull<L: Lanes>(&mut self, pivots: &mut Vec<Pivot<L>>) {
-        let Self { knots, spans, stiff, mean_inverse_mass, position, displacement, masses, .. } = self;
-        let mut moving = Moving { position, displacement };
+        let Self { knots, spans, stiff, mean_inverse_mass, start, offset, masses, .. } = self;
+        let mut moving = Moving { start, offset };
         let threads = Threads {
             start: 0,
             stride: LANES,
@@ -111,7 +111,8 @@ impl Bundle {
     /// Whether all sticks of a rope are near their lengths, and none gives. One that is pushed together gets no better by
     /// being solved again, and what gives has had its force.
     fn is_taut(&self, lane: usize) -> bool {
-        let at = |knot: usize| get(&self.position, knot * LANES + lane);
+        let place = |knot: usize| knot * LANES + lane;
+        let at = |knot: usize| get(&self.start, place(knot)) + get(&self.offset, place(knot));
         let is_near = |stick: usize| {
             let [low, high, compliance] = &self.spans[stick];
             let length = at(stick).distance_to(at(stick + 1));
@@ -139,8 +140,8 @@ impl Bundle {
         for (lane, rope) in self.ropes.iter().enumerate() {
             for knot in 0..=rope.spans.len() {
                 let (from, to) = (rope.start + knot, knot * LANES + lane);
-                set(&mut self.position, to, points.at(from));
-                set(&mut self.displacement, to, points.motion(from));
+                set(&mut self.start, to, get(&points.start, from));
+                set(&mut self.offset, to, get(&points.offset, from));
                 self.masses[to] = points.inverse_mass[from];
             }
         }
@@ -150,8 +151,7 @@ impl Bundle {
         for (lane, rope) in self.ropes.iter().enumerate() {
             for knot in 0..=rope.spans.len() {
                 let (from, to) = (knot * LANES + lane, rope.start + knot);
-                set(&mut points.position, to, get(&self.position, from));
-                set(&mut points.displacement, to, get(&self.displacement, from));
+                set(&mut points.offset, to, get(&self.offset, from));
             }
         }
     }

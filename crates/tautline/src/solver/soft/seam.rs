@@ -1,6 +1,6 @@
 //! Seams: particles that are drawn together at a bounded speed.
 
-use super::points::{Points, get};
+use super::points::Points;
 use crate::constraint::Stick;
 use crate::norm::Norm;
 
@@ -28,7 +28,7 @@ impl Seams {
             stitch.rest_length = (stitch.rest_length - SPEED * h).max(0.0);
             let places = [stitch.a, stitch.b].map(|place| place as usize);
             let [wa, wb] = places.map(|place| points.inverse_mass[place]);
-            let between = get(&points.position, places[1]) - get(&points.position, places[0]);
+            let between = points.at(places[1]) - points.at(places[0]);
             let length = between.norm();
             if wa + wb > 0.0 && length > stitch.rest_length {
                 let pull = between * ((length - stitch.rest_length) / (length * (wa + wb)));

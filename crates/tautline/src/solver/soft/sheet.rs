@@ -25,8 +25,8 @@ pub(super) struct Sheet {
 /// Rows as columns, to be solved side by side.
 #[derive(Debug, Clone, Default)]
 struct Turned {
-    position: Coordinates,
-    displacement: Coordinates,
+    start: Coordinates,
+    offset: Coordinates,
     masses: Vec<f32>,
 }
 
@@ -66,8 +66,8 @@ impl Sheet {
             let (stride, span) = (rows.next_multiple_of(LANES), is_held.then_some(self.weave[0]));
             let mut turned = std::mem::take(&mut self.turned);
             turned.read::<L>(&self.grid, points, stride);
-            let Turned { position, displacement, masses } = &mut turned;
-            let mut moving = Moving { position, displacement };
+            let Turned { start, offset, masses } = &mut turned;
+            let mut moving = Moving { start, offset };
             self.solve(&mut moving, masses, (0, stride, columns, stride), (span, bending), pivots);
             turned.write::<L>(&self.grid, points, stride);
             self.turned = turned;
@@ -117,8 +117,8 @@ impl Turned {
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn read<L: Lanes>(&mut self, grid: &Grid, points: &Points, stride: usize) {
         let length = grid.stride() * stride;
-        let copies = self.position.iter_mut().chain(&mut self.displacement);
-        for (copy, numbers) in copies.zip(points.position.iter().chain(&points.displacement)) {
+        let copies = self.start.iter_mut().chain(&mut self.offset);
+        for (copy, numbers) in copies.zip(points.start.iter().chain(&points.offset)) {
             copy.resize(length, 0.0);
             turn::<L>(grid, numbers, copy, stride);
         }
@@ -128,8 +128,7 @@ impl Turned {
 
     #[inline(always)]
     fn write<L: Lanes>(&self, grid: &Grid, points: &mut Points, stride: usize) {
-        let numbers = points.position.iter_mut().chain(&mut points.displacement);
-        for (copy, numbers) in self.position.iter().chain(&self.displacement).zip(numbers) {
+        for (copy, numbers) in self.offset.iter().zip(&mut points.offset) {
             turn_back::<L>(grid, copy, numbers, stride);
         }
     }

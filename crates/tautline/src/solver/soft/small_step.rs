@@ -7,10 +7,13 @@ use super::attach::Moment;
 use super::elastic::Stiffen;
 use super::gas;
 use super::hinge;
-use super::patch::{Cone, cone_of};
+use super::hot::Contacts;
+use super::meet::part_pair;
 use super::piece::{Layout, Piece};
 use super::points::SmallStep;
+use super::sheet::Sheet;
 use super::solid::Solid;
+use super::stick::Span;
 use super::strand::Sheeting;
 use super::thread::Pivot;
 use super::touch::{self, Push, Skin};
@@ -86,6 +89,7 @@ impl SoftSolver {
             solids.iter_mut().for_each(Solid::advance);
             self.done += 1;
         }
+        self.points.settle();
     }
 }
 
@@ -94,7 +98,7 @@ struct Integrate<'a>(&'a mut SoftSolver, &'a Timing);
 impl Kernel for Integrate<'_> {
     type Output = ();
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn run<L: Lanes>(self) {
         let Self(SoftSolver { points, pieces, led, .. }, timing) = self;
         let h = timing.small;
@@ -124,7 +128,7 @@ struct FindTouches<'a, 'b> {
 impl Kernel for FindTouches<'_, '_> {
     type Output = usize;
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn run<L: Lanes>(self) -> usize {
         let SoftSolver { points, pieces, touches, .. } = self.solver;
         touches.clear();
@@ -161,7 +165,7 @@ struct Relax<'a>(&'a mut SoftSolver);
 impl Kernel for Relax<'_> {
     type Output = ();
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn run<L: Lanes>(self) {
         let SoftSolver { points, pieces, lightened, done, .. } = self.0;
         let mut pivots: Vec<Pivot<L>> = Vec::new();
@@ -196,7 +200,7 @@ struct Part<'a>(&'a mut SoftSolver, f32);
 impl Kernel for Part<'_> {
     type Output = ();
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn run<L: Lanes>(self) {
         let Self(solver, recovery) = self;
         let is_time = solver.done.is_multiple_of(LOOK_EVERY);
@@ -234,13 +238,15 @@ impl SoftSolver {
             if piece.is_rope() {
                 continue;
             }
-            for tile in &piece.tiles {
-                let cone = match &piece.layout {
-                    Layout::Sheet(sheet) => cone_of::<L>(&sheet.grid, tile, &self.points),
-                    Layout::Loose(_) | Layout::Solid(_) | Layout::Rope | Layout::Net(_) => Cone::ALL,
-                };
-                self.meetings.update_tile::<L>(number, &self.points, cone);
-                number += 1;
+            let tiles = number..number + piece.tiles.len();
+            number = tiles.end;
+            for tile in tiles.clone() {
+                self.meetings.update_tile::<L>(tile, &self.points);
+            }
+            if let Layout::Sheet(sheet) = &piece.layout {
+                for tile in tiles {
+                    self.meetings.update_cone::<L>(tile, &sheet.grid, &self.points);
+                }
             }
         }
         // What has moved since the step began has in its first look moved for one small step only.
@@ -253,7 +259,9 @@ impl SoftSolver {
         let fastest = self.pieces.iter().map(|piece| piece.fastest).fold(0.0, f32::max);
         let thinnest = self.pieces.iter().map(|piece| piece.thickness).fold(f32::INFINITY, f32::min);
         let margin = 2.0 * HASTE * LOOK_EVERY as f32 * fastest + 0.5 * thinnest;
-        self.pieces.iter_mut().for_each(|piece| piece.fit_boxes::<L>(&self.points));
+        for piece in &mut self.pieces {
+            piece.fit_boxes::<L>(&self.points);
+        }
         let is_cloth = |(_, piece): &(usize, &Piece)| !piece.is_rope();
         let sheets = self.pieces.iter().enumerate().filter(is_cloth).map(|(number, piece)| Sheeting {
             piece: number as u32,
@@ -272,7 +280,7 @@ struct PullRopes<'a>(&'a mut SoftSolver);
 impl Kernel for PullRopes<'_> {
     type Output = ();
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn run<L: Lanes>(self) {
         let SoftSolver { points, pieces, bundles, lightened, .. } = self.0;
         let mut pivots: Vec<Pivot<L>> = Vec::new();
@@ -297,37 +305,44 @@ struct SweepWindows<'a, 'b> {
 impl Kernel for SweepWindows<'_, '_> {
     type Output = ();
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn run<L: Lanes>(self) {
-        let SoftSolver { points, pieces, lightened, touches, done, saved, .. } = self.solver;
+        let SoftSolver { points, pieces, lightened, touches, strands, meetings, done, .. } = self.solver;
         let push = self.timing.push();
         for piece in pieces {
             let Layout::Sheet(sheet) = &mut piece.layout else { continue };
-            let (grid, weave) = (sheet.grid, sheet.weave);
+            let Sheet { grid, weave, windows, .. } = &mut **sheet;
+            let is_fine = grid.columns.max(grid.rows) >= FINE;
+            let tolerance = if is_fine { HOT_AND_FINE } else { HOT };
             if done.is_multiple_of(HOT_EVERY) {
-                let fineness = grid.columns.max(grid.rows);
-                let tolerance = if fineness < FINE { 0.02 } else { 0.04 };
-                sheet.windows.find::<L>(&grid, &weave, points, tolerance);
-                sheet.windows.list_touches(&grid, touches);
+                windows.find::<L>(grid, weave, points, tolerance);
+                windows.list_members(grid);
+                windows.list_touches(grid, touches);
+                windows.list_meetings(grid, &strands.brushes, meetings.near());
             }
-            let windows = sheet.windows.windows.iter().zip(&sheet.windows.touches);
-            for (window, listed) in windows.filter(|(_, listed)| !listed.is_empty()) {
+            let limit = COOL * tolerance;
+            let limits = weave.map(|span| Span { low: 0.0, high: span.high * (1.0 + limit), ..span });
+            for (window, contacts) in windows.windows.iter().zip(&windows.contacts) {
+                let Contacts { touches: listed, brushes, pairs } = contacts;
                 // What moves in turn is pushed once in a small step: what it gets is to be in the velocity of what pushes.
                 let solid_of = |number: &u32| &self.solids[touches[*number as usize].solid as usize];
-                if listed.iter().any(|number| solid_of(number).inverse_mass > 0.0) {
+                let has_mover = listed.iter().any(|number| solid_of(number).inverse_mass > 0.0);
+                if contacts.is_empty() || has_mover {
                     continue;
                 }
-                window.save(&grid, &points.position, saved);
-                for _ in 0..PASSES {
-                    let (mut moving, masses) = points.moving();
-                    grid.sweep::<L>(&mut moving, masses, window, &weave);
-                    for &number in listed {
-                        let touch = &mut touches[number as usize];
-                        let solid = &mut self.solids[touch.solid as usize];
-                        touch.solve_again::<L>(points, lightened, solid, push);
-                    }
+                let (mut moving, masses) = points.moving();
+                grid.sweep::<L>(&mut moving, masses, window, &limits);
+                for &([a, b], distance) in pairs {
+                    part_pair(points, [a as usize, b as usize], (distance, 0.0), 0.0);
                 }
-                window.still(&grid, points, saved);
+                for &number in brushes {
+                    strands.brushes[number as usize].part(points, 0.0);
+                }
+                for &number in listed {
+                    let touch = &mut touches[number as usize];
+                    let solid = &mut self.solids[touch.solid as usize];
+                    touch.solve_again::<L>(points, lightened, solid, push);
+                }
             }
         }
     }
@@ -335,12 +350,16 @@ impl Kernel for SweepWindows<'_, '_> {
 
 /// How often the segments of a net are swept in a small step.
 const NET_SWEEPS: u32 = 4;
-/// Hot windows are looked for once in so many small steps.
-const HOT_EVERY: u32 = 4;
-/// How often a hot window is swept.
-const PASSES: u32 = 4;
-/// From so many particles along a side on, what is hot is twice as long.
+/// Hot windows are looked for once in so many small steps: whenever what may touch has been, of which they keep the numbers.
+const HOT_EVERY: u32 = LOOK_EVERY;
+/// By what share of its length an edge is longer that is hot, …
+const HOT: f32 = 0.03;
+/// … in sheets of …
+const HOT_AND_FINE: f32 = 0.045;
+/// … so many particles along a side.
 const FINE: usize = 80;
+/// To what share of that it is pulled in.
+const COOL: f32 = 0.8;
 
 /// Moves all out of what is solid.
 struct PushOut<'a, 'b> {
@@ -352,7 +371,7 @@ struct PushOut<'a, 'b> {
 impl Kernel for PushOut<'_, '_> {
     type Output = ();
 
-    #[inline(always)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn run<L: Lanes>(self) {
         let SoftSolver { points, pieces, lightened, touches, .. } = self.solver;
         lightened.copy_from_slice(&points.inverse_mass);

@@ -50,6 +50,9 @@ impl<L: Lanes> SpanAt<L> for &[[Row; 3]] {
     }
 }
 
+/// The bits of a mask that is set in every lane.
+const ALL: u32 = (1 << LANES) - 1;
+
 /// How eight sticks want their ends moved, per unit of inverse mass: the end at `from` by the result, the other by its
 /// reverse. C = l − (l kept in the span), along what lay between the ends when the small step began, b: s = C l/(r·b (w_a +
 /// w_b + α/h²)) (Macklin, Müller and Chentanez 2016, Eq 18, with one iteration). Impulses along r, as it is now, would
@@ -66,9 +69,13 @@ pub(super) fn pull<L: Lanes>(
     let squared = between.length_squared().max(L::splat(1e-24));
     let (length, along) = (squared.sqrt(), between.dot(before));
     let is_steady = along.greater(squared * L::splat(0.5));
-    let direction = Vec3x8::select(is_steady, before, between);
+    let (direction, along) = if is_steady.bits() == ALL {
+        (before, along)
+    } else {
+        (Vec3x8::select(is_steady, before, between), is_steady.select(along, squared))
+    };
     let excess = length - length.max(spans.low).min(spans.high);
-    let share = excess * length / (is_steady.select(along, squared) * (free + spans.compliance));
+    let share = excess * length / (along * (free + spans.compliance));
     direction * free.greater(L::splat(0.0)).and(share)
 }
 
@@ -84,11 +91,11 @@ pub(super) fn relax_run<L: Lanes>(
     let (masses_a, masses_b) = (eights(&masses[a..a + full]), eights(&masses[b..b + full]));
     let [mut from, mut to] = moving.two_runs(a, b, full);
     for (eight, (wa, wb)) in masses_a.iter().zip(masses_b).enumerate() {
-        let ([at_a, moved_a], [at_b, moved_b]) = (from.read_both(eight), to.read_both(eight));
-        let (between, masses) = (at_b - at_a, [L::read(wa), L::read(wb)]);
-        let pull = pull(between, between - (moved_b - moved_a), masses, spans);
-        from.shift(eight, at_a, pull * masses[0]);
-        to.shift(eight, at_b, -(pull * masses[1]));
+        let ([start_a, offset_a], [start_b, offset_b]) = (from.read(eight), to.read(eight));
+        let (before, masses) = (start_b - start_a, [L::read(wa), L::read(wb)]);
+        let pull = pull(before + (offset_b - offset_a), before, masses, spans);
+        from.write(eight, offset_a + pull * masses[0]);
+        to.write(eight, offset_b - pull * masses[1]);
     }
     if full < count {
         let mask = first::<L>(count - full);
@@ -110,9 +117,9 @@ pub(super) fn relax_spans<L: Lanes>(
 
 #[inline(always)]
 fn relax<L: Lanes>([a, b]: [usize; 2], moving: &mut Moving<'_>, masses: [L; 2], spans: Spans<L>) {
-    let between = Vec3x8::read(moving.position, b) - Vec3x8::read(moving.position, a);
-    let apart = Vec3x8::read(moving.displacement, b) - Vec3x8::read(moving.displacement, a);
-    let pull = pull(between, between - apart, masses, spans);
+    let before = Vec3x8::read(moving.start, b) - Vec3x8::read(moving.start, a);
+    let apart = Vec3x8::read(moving.offset, b) - Vec3x8::read(moving.offset, a);
+    let pull = pull(before + apart, before, masses, spans);
     moving.shift(a, pull * masses[0]);
     moving.shift(b, -(pull * masses[1]));
 }

@@ -10,6 +10,9 @@ use super::tile::{Bounds, Tile};
 use crate::norm::Norm;
 use crate::simd::{Lanes, Vec3x8};
 
+/// What is further apart than so many times as far as it is kept apart has not come through.
+const FAR: f32 = 3.0;
+
 /// A segment of a rope.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Segment {
@@ -38,12 +41,12 @@ pub(super) struct Sheeting<'a> {
     pub(super) friction: f32,
 }
 
-/// A particle of cloth near a segment, or a segment near another.
+/// A particle of cloth near a segment.
 #[derive(Debug, Clone, Copy)]
-struct Near {
-    /// The particle twice, or the ends of the other segment.
-    a: [u32; 2],
-    b: [u32; 2],
+pub(super) struct Brush {
+    pub(super) place: u32,
+    /// The ends of the segment.
+    ends: [u32; 2],
     /// How far they are kept apart, in m.
     distance: f32,
     friction: f32,
@@ -51,10 +54,21 @@ struct Near {
     leaning: u32,
 }
 
+/// Two segments near each other.
+#[derive(Debug, Clone, Copy)]
+struct Near {
+    a: [u32; 2],
+    b: [u32; 2],
+    /// How far they are kept apart, in m.
+    distance: f32,
+    friction: f32,
+}
+
 /// All segments of awake ropes, and what they may touch.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Strands {
     segments: Vec<Segment>,
+    pub(super) brushes: Vec<Brush>,
     nears: Vec<Near>,
     /// The pairs of places, ascending, of which one holds the other: segments of nets, and attachments.
     links: Vec<[u32; 2]>,
@@ -63,6 +77,7 @@ pub(super) struct Strands {
 impl Strands {
     pub(super) fn reset(&mut self) {
         self.segments.clear();
+        self.brushes.clear();
         self.nears.clear();
     }
 
@@ -89,6 +104,7 @@ impl Strands {
         sheets: impl Iterator<Item = Sheeting<'a>>,
         margin: f32,
     ) {
+        self.brushes.clear();
         self.nears.clear();
         let boxes: Vec<Bounds> = self.segments.iter().map(|segment| bounds_of(segment, points)).collect();
         let all = boxes.iter().fold(Bounds::EMPTY, |all, bounds| all.with(*bounds));
@@ -100,13 +116,16 @@ impl Strands {
                 }
                 for (segment, _) in self.segments.iter().zip(&boxes).filter(|(_, bounds)| near.meets(bounds))
                 {
-                    list_particles::<L>(points, tile, segment, (&sheet, margin), &mut self.nears);
+                    list_particles::<L>(points, tile, segment, (&sheet, margin), &mut self.brushes);
                 }
             }
         }
         self.list_segments(&boxes, margin);
         let links = &self.links;
-        self.nears.retain(|near| links.is_empty() || !are_linked(links, near.a, near.b));
+        if !links.is_empty() {
+            self.brushes.retain(|brush| !are_linked(links, [brush.place; 2], brush.ends));
+            self.nears.retain(|near| !are_linked(links, near.a, near.b));
+        }
     }
 
     /// Pairs of segments: swept along x.
@@ -131,18 +150,19 @@ impl Strands {
             let (a, b) = (&self.segments[a], &self.segments[b]);
             let friction = (a.friction * b.friction).sqrt();
             let distance = a.radius + b.radius;
-            Near { a: a.ends, b: b.ends, distance, friction, leaning: u32::MAX }
+            Near { a: a.ends, b: b.ends, distance, friction }
         }));
     }
 
     /// Moves apart what is too close, with friction; what was too close before by `recovery` (m) at most. Calls `leans` with
     /// the pieces of cloth that lean on held ropes.
     pub(super) fn part(&self, points: &mut Points, recovery: f32, mut leans: impl FnMut(u32)) {
-        for near in &self.nears {
-            if near.part(points, recovery) && near.leaning != u32::MAX {
-                leans(near.leaning);
+        for brush in &self.brushes {
+            if brush.part(points, recovery) && brush.leaning != u32::MAX {
+                leans(brush.leaning);
             }
         }
+        self.nears.iter().for_each(|near| near.part(points, recovery));
     }
 }
 
@@ -168,13 +188,13 @@ fn list_particles<L: Lanes>(
     tile: &Tile,
     segment: &Segment,
     (sheet, margin): (&Sheeting<'_>, f32),
-    out: &mut Vec<Near>,
+    out: &mut Vec<Brush>,
 ) {
     let distance = sheet.thickness + segment.radius;
     let [start, end] = segment.ends.map(|place| points.at(place as usize));
     let along = end - start;
     for &first in &tile.eights {
-        let from = Vec3x8::<L>::read(&points.position, first as usize) - Vec3x8::splat(start);
+        let from = points.eight_at::<L>(first as usize) - Vec3x8::splat(start);
         let share = from.dot(Vec3x8::splat(along)) / L::splat(along.length_squared().max(1e-30));
         let share = share.max(L::splat(0.0)).min(L::splat(1.0));
         let gap = from - Vec3x8::splat(along) * share;
@@ -186,66 +206,102 @@ fn list_particles<L: Lanes>(
             lanes &= lanes - 1;
             let friction = (sheet.friction * segment.friction).sqrt();
             let leaning = if segment.is_held { sheet.piece } else { u32::MAX };
-            out.push(Near { a: [place; 2], b: segment.ends, distance, friction, leaning });
+            out.push(Brush { place, ends: segment.ends, distance, friction, leaning });
         }
     }
 }
 
-impl Near {
-    /// Of the nearest places of both, as they are: the gap that is missing along the line between them, and friction by
-    /// Coulomb's law on displacements. What has passed the other in this small step is taken back to its side. Tells whether they touched.
+impl Brush {
+    /// Of the particle and the nearest place of the segment, as they are: the gap that is missing along the line between
+    /// them, and friction. Tells whether they touched.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-    fn part(&self, points: &mut Points, recovery: f32) -> bool {
+    pub(super) fn part(&self, points: &mut Points, recovery: f32) -> bool {
+        let (place, [start, end]) = (self.place as usize, [self.ends[0] as usize, self.ends[1] as usize]);
+        let (from, to) = (points.at(start), points.at(end));
+        let (at, along) = (points.at(place), to - from);
+        let share = ((at - from).dot(along) / along.length_squared().max(1e-30)).clamp(0.0, 1.0);
+        let gap = from + along * share - at;
+        let (squared, reach) = (gap.length_squared(), self.distance * FAR);
+        if squared >= reach * reach {
+            return false;
+        }
+        let (moved, before) = (points.motion(start), points.motion(place));
+        let slip = moved + (points.motion(end) - moved) * share - before;
+        let mass = points.inverse_mass[place];
+        let (at_start, at_end) =
+            (points.inverse_mass[start] * (1.0 - share), points.inverse_mass[end] * share);
+        let mobility = mass + at_start * (1.0 - share) + at_end * share;
+        let Some([impulse, out]) = push(gap, slip, (self.distance, self.friction), mobility, recovery) else {
+            return false;
+        };
+        for (place, share) in [(start, at_start), (end, at_end), (place, -mass)] {
+            points.shift(place, impulse * share);
+            points.carry(place, out * share);
+        }
+        true
+    }
+}
+
+impl Near {
+    /// As [`Brush::part`], of the nearest places of two segments.
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+    fn part(&self, points: &mut Points, recovery: f32) {
         let [a, b] = [self.a, self.b].map(|ends| ends.map(|place| place as usize));
         let (ends_a, ends_b) = (a.map(|place| points.at(place)), b.map(|place| points.at(place)));
         let [share_a, share_b] = nearest_shares(ends_a, ends_b);
         let weights = [[1.0 - share_a, share_a], [1.0 - share_b, share_b]];
         let mix = |ends: [Vec3; 2], weights: [f32; 2]| ends[0] * weights[0] + ends[1] * weights[1];
         let gap = mix(ends_b, weights[1]) - mix(ends_a, weights[0]);
-        let length = gap.norm();
-        if length >= 3.0 * self.distance {
-            return false;
+        if gap.norm() >= FAR * self.distance {
+            return;
         }
         let slip = mix(b.map(|place| points.motion(place)), weights[1])
             - mix(a.map(|place| points.motion(place)), weights[0]);
-        let before = gap - slip;
-        let has_passed = gap.dot(before) < 0.0;
-        let (normal, apart) =
-            if has_passed { (before.unit_or(Vec3::Y), -length) } else { (gap.unit_or(Vec3::Y), length) };
-        let depth = self.distance - apart;
-        let is_point = a[0] == a[1];
-        let mass = |place: usize| points.inverse_mass[place];
-        let mobility_a = if is_point {
-            mass(a[0])
-        } else {
-            mass(a[0]) * weights[0][0] * weights[0][0] + mass(a[1]) * weights[0][1] * weights[0][1]
+        let of = |[start, end]: [usize; 2], [at_start, at_end]: [f32; 2]| {
+            [points.inverse_mass[start] * at_start, points.inverse_mass[end] * at_end]
         };
-        let mobility_b =
-            mass(b[0]) * weights[1][0] * weights[1][0] + mass(b[1]) * weights[1][1] * weights[1][1];
-        let mobility = mobility_a + mobility_b;
-        if depth <= 0.0 || mobility <= 0.0 {
-            return false;
-        }
-        let across = slip - normal * slip.dot(normal);
-        let grip = (self.friction * depth / across.norm().max(1e-9)).min(1.0);
-        // What is deeper than it moved in is moved out without velocity.
-        let braked = depth.min((-slip.dot(normal)).max(0.0));
-        let impulse = (normal * braked - across * grip) / mobility;
-        let out = normal * ((depth - braked).min(recovery) / mobility);
-        for (place, weight) in b.into_iter().zip(weights[1]) {
-            let share = weight * points.inverse_mass[place];
+        let [shares_a, shares_b] = [of(a, weights[0]), of(b, weights[1])];
+        let dot = |a: [f32; 2], b: [f32; 2]| a[0] * b[0] + a[1] * b[1];
+        let mobility = dot(shares_a, weights[0]) + dot(shares_b, weights[1]);
+        let Some([impulse, out]) = push(gap, slip, (self.distance, self.friction), mobility, recovery) else {
+            return;
+        };
+        for (place, share) in b.into_iter().zip(shares_b).chain(a.into_iter().zip(shares_a.map(|w| -w))) {
             points.shift(place, impulse * share);
             points.carry(place, out * share);
         }
-        let count = if is_point { 1 } else { 2 };
-        for (place, weight) in a.into_iter().zip(weights[0]).take(count) {
-            let weight = if is_point { 1.0 } else { weight };
-            let share = weight * points.inverse_mass[place];
-            points.shift(place, -impulse * share);
-            points.carry(place, -out * share);
-        }
-        true
     }
+}
+
+/// What the second of two gets that are `gap` (m) apart and have moved by `slip` (m) against each other in this small step,
+/// per inverse mass: what becomes velocity, with friction by Coulomb's law on displacements, and what does not. What has
+/// passed the other is taken back to its side. Nothing if they do not touch.
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+fn push(
+    gap: Vec3,
+    slip: Vec3,
+    (distance, friction): (f32, f32),
+    mobility: f32,
+    recovery: f32,
+) -> Option<[Vec3; 2]> {
+    let before = gap - slip;
+    let has_passed = gap.dot(before) < 0.0;
+    if !has_passed && gap.length_squared() >= distance * distance || mobility <= 0.0 {
+        return None;
+    }
+    let length = gap.norm();
+    let (normal, apart) = if has_passed {
+        (before.unit_or(Vec3::Y), -length)
+    } else {
+        (gap.unit_or(Vec3::Y), length)
+    };
+    let depth = distance - apart;
+    let across = slip - normal * slip.dot(normal);
+    let grip = (friction * depth / across.norm().max(1e-9)).min(1.0);
+    // What is deeper than it moved in is moved out without velocity.
+    let braked = depth.min((-slip.dot(normal)).max(0.0));
+    let impulse = (normal * braked - across * grip) / mobility;
+    Some([impulse, normal * ((depth - braked).min(recovery) / mobility)])
 }
 
 /// Where two segments are nearest to each other: shares from their starts (Ericson, Real-Time Collision Detection,

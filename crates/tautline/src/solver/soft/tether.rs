@@ -72,13 +72,13 @@ impl Tethers {
         for tied in &self.tied {
             let place = tied.place as usize;
             let mut held = [Row::ZERO; 3];
-            for (row, numbers) in held.iter_mut().zip(&points.position) {
+            for (axis, row) in held.iter_mut().enumerate() {
                 for (number, &from) in row.0.iter_mut().zip(&tied.held) {
-                    *number = numbers[from as usize];
+                    *number = points.start[axis][from as usize] + points.offset[axis][from as usize];
                 }
             }
             let held = Vec3x8::<L>::load(&held);
-            let at = Vec3x8::read(&points.position, place);
+            let at = points.eight_at(place);
             let (away, most) = (at - held, L::load(&tied.length));
             let length = away.length_squared().max(L::splat(1e-24)).sqrt();
             let is_free = read::<L>(&points.inverse_mass, place).greater(L::splat(0.0));

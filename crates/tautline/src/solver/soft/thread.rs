@@ -64,16 +64,16 @@ impl<S> Threads<S> {
     {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         let stride = self.stride / LANES;
-        let (mut above, mut mass) = (knots.read_both::<L>(first), L::read(&masses[first]));
+        let (mut above, mut mass) = (knots.read::<L>(first), L::read(&masses[first]));
         // Of the stick above: its direction, and along what its ends are moved.
         let (mut direction, mut push) = (Vec3x8::zero(), Vec3x8::zero());
         let (mut remainder, mut inverse) = (zero, zero);
         pivots.clear();
         for stick in 0..self.knots - 1 {
             let eight = first + (stick + 1) * stride;
-            let (below, next_mass) = (knots.read_both(eight), L::read(&masses[eight]));
-            let between = below[0] - above[0];
-            let before = between - (below[1] - above[1]);
+            let (below, next_mass) = (knots.read(eight), L::read(&masses[eight]));
+            let before = below[0] - above[0];
+            let between = before + (below[1] - above[1]);
             let squared = between.length_squared().max(L::splat(1e-24));
             let (length, is_steady) = (squared.sqrt(), between.dot(before).greater(squared * L::splat(0.5)));
             let spans = self.spans.span(stick);
@@ -116,7 +116,8 @@ impl<S> Threads<S> {
             };
             let eight = first + knot * self.stride / LANES;
             let shift = (from_above - from_below) * L::read(&masses[eight]);
-            knots.shift(eight, knots.read(eight), shift);
+            let [_, offset] = knots.read(eight);
+            knots.write(eight, offset + shift);
             from_below = from_above;
         }
     }

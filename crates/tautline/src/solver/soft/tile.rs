@@ -5,7 +5,7 @@ use std::ops::Range;
 use glam::Vec3;
 
 use super::grid::Grid;
-use super::points::Points;
+use super::points::{Coordinates, Points};
 use crate::simd::{LANES, Lanes, Vec3x8};
 
 /// Runs of eight places that a tile has at most.
@@ -76,36 +76,55 @@ impl Tile {
     /// The box around its particles.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn bounds<L: Lanes>(&self, points: &Points) -> Bounds {
-        let mut low = Vec3x8::<L>::splat(Vec3::INFINITY);
-        let mut high = Vec3x8::<L>::splat(Vec3::NEG_INFINITY);
+        let mut around = Around::<L>::nothing();
         for &place in &self.eights {
-            let is_there = points.are_there::<L>(place as usize);
-            let at = Vec3x8::read(&points.position, place as usize);
-            (low, high) = (
-                least(low, Vec3x8::select(is_there, at, low)),
-                most(high, Vec3x8::select(is_there, at, high)),
-            );
+            around.add(points.are_there(place as usize), points.eight_at(place as usize));
         }
-        let high = Vec3::new(high.x.largest(), high.y.largest(), high.z.largest());
-        let low = -low;
-        Bounds { low: -Vec3::new(low.x.largest(), low.y.largest(), low.z.largest()), high }
+        around.bounds()
     }
 }
 
-#[inline(always)]
-fn least<L: Lanes>(a: Vec3x8<L>, b: Vec3x8<L>) -> Vec3x8<L> {
-    Vec3x8::new(a.x.min(b.x), a.y.min(b.y), a.z.min(b.z))
+/// Bounds of many vectors, eight side by side.
+pub(super) struct Around<L> {
+    low: Vec3x8<L>,
+    high: Vec3x8<L>,
 }
 
-#[inline(always)]
-fn most<L: Lanes>(a: Vec3x8<L>, b: Vec3x8<L>) -> Vec3x8<L> {
-    Vec3x8::new(a.x.max(b.x), a.y.max(b.y), a.z.max(b.z))
+impl<L: Lanes> Around<L> {
+    #[inline(always)]
+    pub(super) fn nothing() -> Self {
+        Self { low: Vec3x8::splat(Vec3::INFINITY), high: Vec3x8::splat(Vec3::NEG_INFINITY) }
+    }
+
+    /// Adds those of eight that are there.
+    #[inline(always)]
+    pub(super) fn add(&mut self, are_there: L, eight: Vec3x8<L>) {
+        let Self { low, high } = self;
+        // Of what is no number and another, `min` and `max` give the second.
+        let eight = Vec3x8::select(are_there, eight, Vec3x8::splat(Vec3::NAN));
+        *low = Vec3x8::new(eight.x.min(low.x), eight.y.min(low.y), eight.z.min(low.z));
+        *high = Vec3x8::new(eight.x.max(high.x), eight.y.max(high.y), eight.z.max(high.z));
+    }
+
+    #[inline(always)]
+    pub(super) fn bounds(&self) -> Bounds {
+        let (low, high) = (-self.low, self.high);
+        Bounds {
+            low: -Vec3::new(low.x.largest(), low.y.largest(), low.z.largest()),
+            high: Vec3::new(high.x.largest(), high.y.largest(), high.z.largest()),
+        }
+    }
 }
 
-/// Bits of those of the eight places from `place` on that have a particle in a box.
-#[inline(always)]
-pub(super) fn inside<L: Lanes>(points: &Points, place: usize, bounds: &Bounds) -> u32 {
-    let at = Vec3x8::<L>::read(&points.position, place);
+/// Bits of those of the eight places from `place` on that have a particle in a box, when they are at `positions`.
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+pub(super) fn inside<L: Lanes>(
+    points: &Points,
+    positions: &Coordinates,
+    place: usize,
+    bounds: &Bounds,
+) -> u32 {
+    let at = Vec3x8::<L>::read(positions, place);
     let (low, high) = (Vec3x8::<L>::splat(bounds.low), Vec3x8::splat(bounds.high));
     let below = low.x.greater(at.x).bits() | low.y.greater(at.y).bits() | low.z.greater(at.z).bits();
     let above = at.x.greater(high.x).bits() | at.y.greater(high.y).bits() | at.z.greater(high.z).bits();

@@ -135,7 +135,7 @@ impl Finder<'_> {
 
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn eight<L: Lanes>(&self, place: u32, target: Target<'_>, radius: f32, out: &mut Vec<Touch>) {
-        let at = Vec3x8::<L>::read(&self.points.position, place as usize);
+        let at = self.points.eight_at::<L>(place as usize);
         let from_center = at - Vec3x8::splat(self.stance.center);
         let reach = self.skin.thickness + self.skin.margin;
         let probe = match target {
@@ -241,7 +241,7 @@ impl Touch {
         if solid.inverse_mass > 0.0 {
             offset = offset + normal.dot(self.astray_by(solid));
         }
-        let at = Vec3x8::<L>::read(&points.position, place);
+        let at = points.eight_at::<L>(place);
         let depth = offset - at.dot(normal);
         let free = read::<L>(&points.inverse_mass, place);
         let zero = L::splat(0.0);
@@ -249,7 +249,7 @@ impl Touch {
         if hits.bits() == 0 {
             return false;
         }
-        let slip = Vec3x8::read(&points.displacement, place) - carried;
+        let slip = points.motion_of_eight(place) - carried;
         let along = slip.dot(normal);
         let depth = hits.and(depth.min((-along).max(zero) + L::splat(push.recovery)));
         if solid.inverse_mass > 0.0 {

@@ -2,7 +2,6 @@
 
 use glam::{DVec3, Vec3};
 
-use super::super::points::set;
 use super::super::tests::noise3;
 use super::*;
 use crate::shape::Shape;
@@ -15,8 +14,8 @@ fn three() -> Points {
     let mut points = Points::default();
     points.reset(8);
     for (place, mass) in MASSES.into_iter().enumerate() {
-        set(&mut points.position, place, Vec3::X * 1.2 + noise3(place) * 0.3);
-        set(&mut points.displacement, place, noise3(place + 9) * 1e-4);
+        points.put(place, Vec3::X * 1.2 + noise3(place) * 0.3, Vec3::ZERO);
+        points.set_motion(place, noise3(place + 9) * 1e-4);
         points.inverse_mass[place] = mass;
     }
     points
@@ -84,7 +83,7 @@ fn a_compliant_one_holds_with_the_force_of_its_length() {
 #[test]
 fn what_is_apart_is_drawn_together_no_faster_than_allowed() {
     let mut points = three();
-    points.displacement.iter_mut().for_each(|numbers| numbers.fill(0.0));
+    points.remainder.iter_mut().for_each(|numbers| numbers.fill(0.0));
     let mut tie = tie([TRIANGLE, Hold::Still(Vec3::ZERO)], 0.0);
     let moment = Moment { recovery: 1e-3, ..MOMENT };
     let gap = apart(tie.ends, &points, &[]);

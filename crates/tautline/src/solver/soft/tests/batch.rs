@@ -1,6 +1,6 @@
 use super::*;
 use crate::simd::Kernel;
-use crate::solver::soft::tests::{cloud, farthest, in_f64, noise, on_all, relax_in_f64, weights};
+use crate::solver::soft::tests::{cloud, farthest, in_f64, noise, on_all, positions, relax_in_f64, weights};
 
 const PLACES: usize = 120;
 
@@ -27,7 +27,7 @@ impl Kernel for Sweep<'_> {
     fn run<L: Lanes>(self) -> Points {
         let mut points = Points::default();
         points.reset(PLACES);
-        points.position = cloud(PLACES, 1);
+        points.start = cloud(PLACES, 1);
         self.0.sweep::<L>(&mut points, &weights(PLACES));
         points
     }
@@ -61,7 +61,7 @@ fn a_sweep_relaxes_batch_after_batch() {
             relax_in_f64(&mut expected, &start, &weights(PLACES), ends, batch.spans.map(|row| row.0[lane]));
         }
     }
-    let off = farthest(&on_all(|| Sweep(&batches)).position, &expected);
+    let off = farthest(&positions(&on_all(|| Sweep(&batches))), &expected);
     assert!(off < 1e-5, "{off} m off");
 }
 

@@ -1,6 +1,5 @@
 use super::*;
 use crate::mesh::lattice;
-use crate::solver::soft::points::get;
 use crate::solver::soft::tests::{noise3, on_all};
 
 const H: f32 = 5e-4;
@@ -14,7 +13,7 @@ fn shaken(material: Material, by: f32) -> (Elastic, Points) {
     let mut points = Points::default();
     points.reset(solid.points.len());
     for (place, (&at, mass)) in solid.points.iter().zip(&masses).enumerate() {
-        set(&mut points.position, place, at + noise3(place) * by);
+        points.put(place, at + noise3(place) * by, Vec3::ZERO);
         points.inverse_mass[place] = 1.0 / mass;
     }
     (Elastic::new(&flesh, &masses, 0), points)
@@ -130,7 +129,7 @@ fn what_is_at_rest_stays_and_impulses_add_up_to_nothing() {
         let after = on_all(|| Relaxed(&elastic, before.clone()));
         let (mut sum, mut turn, mut size) = (DVec3::ZERO, DVec3::ZERO, 0.0);
         for place in 0..count {
-            let impulse = get(&after.displacement, place).as_dvec3() / f64::from(after.inverse_mass[place]);
+            let impulse = after.motion(place).as_dvec3() / f64::from(after.inverse_mass[place]);
             sum += impulse;
             turn += before.at(place).as_dvec3().cross(impulse);
             size += impulse.length();

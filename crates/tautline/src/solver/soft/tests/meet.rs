@@ -3,8 +3,6 @@ use std::collections::BTreeSet;
 use super::*;
 use crate::simd::Kernel;
 use crate::solver::soft::grid::Grid;
-use crate::solver::soft::patch::cone_of;
-use crate::solver::soft::points::set;
 use crate::solver::soft::tests::{noise3, on_all, put_wavy};
 use crate::solver::soft::tile::tiles_of_grid;
 
@@ -38,7 +36,7 @@ fn scene(meets_itself: bool) -> Scene {
         let place = folded.place(row, column);
         let at = points.at(place);
         let at = Vec3::new(3.3 - at.x, at.y + 0.1, at.z);
-        set(&mut points.position, place, at);
+        points.put(place, at, Vec3::ZERO);
     }
     meetings.forget(&points);
     Scene { grids, points, meetings }
@@ -48,13 +46,11 @@ impl Scene {
     #[inline(always)]
     fn look<L: Lanes>(&mut self, has_cones: bool) {
         for tile in 0..self.meetings.tiles.len() {
+            self.meetings.update_tile::<L>(tile, &self.points);
+        }
+        for tile in (0..self.meetings.tiles.len()).filter(|_| has_cones) {
             let grid = &self.grids[self.meetings.member_of[tile] as usize];
-            let cone = if has_cones {
-                cone_of::<L>(grid, &self.meetings.tiles[tile].clone(), &self.points)
-            } else {
-                Cone::ALL
-            };
-            self.meetings.update_tile::<L>(tile, &self.points, cone);
+            self.meetings.update_cone::<L>(tile, grid, &self.points);
         }
         self.meetings.look::<L>(&self.points, 1.0);
     }
@@ -188,8 +184,8 @@ fn it_does_not_matter_when_lists_were_made() {
         for scene in [&mut kept, &mut fresh] {
             scene.meetings.part(&mut scene.points, f32::MAX);
         }
-        assert!(kept.points.position == fresh.points.position, "step {step}");
-        assert!(kept.points.displacement == fresh.points.displacement, "step {step}");
+        assert!(kept.points.offset == fresh.points.offset, "step {step}");
+        assert!(kept.points.remainder == fresh.points.remainder, "step {step}");
     }
 }
 
@@ -201,8 +197,8 @@ fn a_pair_is_parted_and_keeps_its_momentum() {
         points.reset(8);
         for (place, side) in [(0, -0.5), (1, 0.5)] {
             let direction = Vec3::new(0.6, 0.0, 0.8);
-            set(&mut points.position, place, direction * (side * gap));
-            set(&mut points.displacement, place, direction * (-side * closing) + Vec3::Y * (side * 0.01));
+            points.put(place, direction * (side * gap), Vec3::ZERO);
+            points.set_motion(place, direction * (-side * closing) + Vec3::Y * (side * 0.01));
             points.inverse_mass[place] = if place == 0 { 1.0 } else { 3.0 };
         }
         let momentum = |points: &Points| points.motion(0) + points.motion(1) / 3.0;

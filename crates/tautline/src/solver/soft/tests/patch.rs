@@ -2,7 +2,7 @@ use glam::DVec3;
 
 use super::*;
 use crate::simd::Kernel;
-use crate::solver::soft::tests::{noise3, on_all, wavy_sheet};
+use crate::solver::soft::tests::{noise3, on_all, positions, wavy_sheet};
 use crate::solver::soft::tile::tiles_of_grid;
 
 struct ConeOf<'a>(&'a Grid, &'a Tile, &'a Points);
@@ -12,7 +12,7 @@ impl Kernel for ConeOf<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self) -> Cone {
-        cone_of::<L>(self.0, self.1, self.2)
+        cone_of::<L>(self.0, self.1, &positions(self.2), self.2)
     }
 }
 

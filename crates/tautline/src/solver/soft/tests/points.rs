@@ -23,8 +23,8 @@ fn falling() -> Points {
     let mut points = Points::default();
     points.reset(PLACES);
     for place in (0..PLACES).filter(|place| place % 6 != 5) {
-        set(&mut points.position, place, noise3(place));
-        set(&mut points.displacement, place, noise3(place + 100) * 1e-3);
+        points.put(place, noise3(place), Vec3::ZERO);
+        points.set_motion(place, noise3(place + 100) * 1e-3);
         points.inverse_mass[place] = if place % 6 == 0 { 0.0 } else { 1.0 };
         points.presence[place] = 1.0;
     }
@@ -43,7 +43,7 @@ fn particles_fall_on_parabolas() {
     let (points, fastest) = on_all(|| Integrate(&start, step(1.0), 100));
     let mut most = 0.0_f32;
     for place in 0..PLACES {
-        let (moved, d) = (points.at(place) - start.at(place), get(&start.displacement, place));
+        let (moved, d) = (points.at(place) - start.at(place), start.motion(place));
         let is_free = start.inverse_mass[place] > 0.0;
         let expected = if is_free { d * 100.0 + step(1.0).fall * 5050.0 } else { Vec3::ZERO };
         assert!(moved.distance(expected) < 5e-6, "{place}: {moved} instead of {expected}");
@@ -60,7 +60,7 @@ fn none_goes_further_than_the_limit_and_all_keep_their_direction() {
     let (points, fastest) = on_all(|| Integrate(&start, step(5e-4), 1));
     let mut limited = 0;
     for place in (0..PLACES).filter(|&place| start.inverse_mass[place] > 0.0) {
-        let wanted = get(&start.displacement, place) + step(1.0).fall;
+        let wanted = start.motion(place) + step(1.0).fall;
         let expected = wanted.clamp_length_max(5e-4);
         limited += usize::from(wanted.length() > 5e-4);
         assert!(points.motion(place).distance(expected) < 1e-9);
@@ -93,9 +93,22 @@ fn shifts_become_motion() {
 
 #[test]
 fn a_led_particle_moves_as_told() {
-    let mut points = falling();
-    let (place, from) = (0, points.at(0));
-    points.lead(place, Vec3::new(0.25, 0.0, -0.5));
-    assert_eq!(points.at(place), from + Vec3::new(0.25, 0.0, -0.5));
-    assert_eq!(points.motion(place), Vec3::new(0.25, 0.0, -0.5));
+    let start = falling();
+    let (mut points, _) = on_all(|| Integrate(&start, step(1.0), 1));
+    let motion = Vec3::new(0.25, 0.0, -0.5);
+    points.lead(0, motion);
+    assert!(points.at(0).distance(start.at(0) + motion) < 1e-7);
+    assert_eq!(points.motion(0), motion);
+}
+
+/// 100 m from the origin, numbers are 8 µm apart.
+#[test]
+fn what_is_slow_and_far_from_the_origin_moves_on() {
+    let mut start = falling();
+    let (place, from, motion) = (1, Vec3::splat(100.0), Vec3::new(1e-6, -2e-7, 3e-8));
+    start.put(place, from, motion);
+    let still = SmallStep { fall: Vec3::ZERO, ..step(1.0) };
+    let (points, _) = on_all(|| Integrate(&start, still, 1000));
+    assert!((points.at(place) - from).distance(motion * 1000.0) < 1e-5);
+    assert!(points.motion(place).distance(motion) < 1e-11);
 }

@@ -2,7 +2,7 @@ use glam::Vec3;
 
 use super::*;
 use crate::simd::Kernel;
-use crate::solver::soft::tests::{noise, noise3, on_all};
+use crate::solver::soft::tests::{noise, noise3, on_all, positions};
 
 struct Solve<'a>(&'a [Bundle], &'a Points, usize);
 
@@ -15,7 +15,7 @@ impl Kernel for Solve<'_> {
         for _ in 0..self.2 {
             bundles.iter_mut().for_each(|bundle| bundle.solve::<L>(&mut points, &mut Vec::new()));
         }
-        points.position
+        positions(&points)
     }
 }
 
@@ -31,7 +31,7 @@ fn ropes() -> (Vec<Rope>, Points) {
         for knot in 0..=segments {
             let place = start + knot;
             let at = Vec3::new(number as f32, -0.22 * knot as f32, 0.0) + noise3(place) * 0.06;
-            set(&mut points.position, place, at);
+            points.put(place, at, Vec3::ZERO);
             points.inverse_mass[place] = if knot == 0 { 0.0 } else { 1.0 + 0.3 * noise(place) };
         }
         ropes.push(Rope { start, spans });

@@ -3,7 +3,6 @@ use proptest::prelude::*;
 use super::*;
 use crate::geometry::closest::closest_between_segments;
 use crate::simd::Kernel;
-use crate::solver::soft::points::set;
 use crate::solver::soft::tests::{noise3, on_all, wavy_sheet};
 
 fn vector() -> impl Strategy<Value = Vec3> {
@@ -45,7 +44,7 @@ fn scene() -> (Points, Strands, Vec<Tile>) {
     for knot in 0..=SEGMENTS as usize {
         let place = start + knot;
         let at = Vec3::new(0.06 * knot as f32 - 0.1, 0.1 + 0.05 * (knot as f32).sin(), 0.45);
-        set(&mut points.position, place, at);
+        points.put(place, at, Vec3::ZERO);
         points.inverse_mass[place] = 0.5;
         points.presence[place] = 1.0;
     }
@@ -74,7 +73,8 @@ impl Kernel for Look<'_> {
         let boxes: Vec<Bounds> = tiles.iter().map(|tile| tile.bounds::<L>(points)).collect();
         let sheet = Sheeting { piece: 0, tiles, boxes: &boxes, thickness: 0.06, friction: 0.5 };
         strands.look::<L>(points, std::iter::once(sheet), margin);
-        let mut nears: Vec<_> = strands.nears.iter().map(|near| (near.a, near.b)).collect();
+        let of_brushes = strands.brushes.iter().map(|brush| ([brush.place; 2], brush.ends));
+        let mut nears: Vec<_> = strands.nears.iter().map(|near| (near.a, near.b)).chain(of_brushes).collect();
         nears.sort_unstable();
         nears
     }
@@ -120,17 +120,17 @@ fn crossing_segments_are_parted_and_momentum_is_kept() {
         points.reset(8);
         let ends = [[Vec3::NEG_X, Vec3::X], [Vec3::NEG_Z, Vec3::Z].map(|end| end + Vec3::Y * height)];
         for (place, at) in ends.into_iter().flatten().enumerate() {
-            set(&mut points.position, place, at + noise3(place) * 1e-3);
+            points.put(place, at + noise3(place) * 1e-3, Vec3::ZERO);
             points.inverse_mass[place] = 1.0 + 0.2 * place as f32;
             let motion = if place > 1 { Vec3::new(0.001, -fall, 0.0) } else { Vec3::ZERO };
-            set(&mut points.displacement, place, motion);
+            points.set_motion(place, motion);
         }
         let masses = points.inverse_mass.clone();
         let momentum = |points: &Points| -> Vec3 { (0..4).map(|k| points.motion(k) / masses[k]).sum() };
         let middle = |points: &Points| -> Vec3 { (0..4).map(|k| points.at(k) / masses[k]).sum() };
         let (before, place) = (momentum(&points), middle(&points));
-        let near = Near { a: [0, 1], b: [2, 3], distance: 0.05, friction: 0.0, leaning: u32::MAX };
-        assert!(near.part(&mut points, f32::MAX));
+        let near = Near { a: [0, 1], b: [2, 3], distance: 0.05, friction: 0.0 };
+        near.part(&mut points, f32::MAX);
         let now = [[0, 1], [2, 3]].map(|ends| ends.map(|k| points.at(k)));
         let shares = nearest_shares(now[0], now[1]).map(f64::from);
         let apart = gap(now[0], now[1], shares);

@@ -1,6 +1,7 @@
+use glam::Vec3;
+
 use super::*;
 use crate::simd::Kernel;
-use crate::solver::soft::points::set;
 use crate::solver::soft::tests::{noise, noise3, on_all};
 
 /// Sticks of some length between some of 40 particles; the last five hang on nothing.
@@ -54,7 +55,7 @@ fn what_is_too_far_off_is_drawn_in_straight() {
     let mut points = Points::default();
     points.reset(32);
     for particle in 0..count {
-        set(&mut points.position, 8 + particle, noise3(particle));
+        points.put(8 + particle, noise3(particle), Vec3::ZERO);
         points.inverse_mass[8 + particle] = if particle == held { 0.0 } else { 1.0 };
     }
     let length = |particle: usize| if particle == held { 0.0 } else { 0.9 + 0.4 * noise(particle + 50) };

@@ -1,6 +1,6 @@
 use super::*;
 use crate::simd::Kernel;
-use crate::solver::soft::tests::{on_all, wavy_sheet};
+use crate::solver::soft::tests::{on_all, positions, wavy_sheet};
 
 struct Look<'a>(&'a [Tile], &'a Points, Bounds);
 
@@ -14,7 +14,7 @@ impl Kernel for Look<'_> {
         for tile in tiles {
             boxes.push(tile.bounds::<L>(points));
             for &place in &tile.eights {
-                let bits = inside::<L>(points, place as usize, &bounds);
+                let bits = inside::<L>(points, &positions(points), place as usize, &bounds);
                 found.extend((0..LANES as u32).filter(|lane| bits >> lane & 1 == 1).map(|lane| place + lane));
             }
         }

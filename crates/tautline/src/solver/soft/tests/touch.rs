@@ -1,7 +1,6 @@
 use super::*;
 use crate::shape::{Part, Shape};
 use crate::simd::Kernel;
-use crate::solver::soft::points::set;
 use crate::solver::soft::tests::{noise3, on_all};
 use crate::solver::soft::tile::tiles_of_run;
 
@@ -14,7 +13,7 @@ fn around() -> Points {
     points.reset(PLACES);
     for place in (0..PLACES).filter(|place| place % 8 != 7) {
         let at = noise3(place).normalize() * (1.0 + 0.1 * (place % 5) as f32 / 4.0);
-        set(&mut points.position, place, at);
+        points.put(place, at, Vec3::ZERO);
         points.inverse_mass[place] = 2.0 + (place % 3) as f32;
         points.presence[place] = 1.0;
     }
@@ -101,7 +100,7 @@ fn what_sticks_to_a_moving_ball_is_carried_along() {
     let (shape, mut before) = (ball(), around());
     for place in (0..PLACES).filter(|place| place % 8 != 7) {
         let at = before.at(place).normalize() * (1.0 + THICKNESS - 1e-3);
-        set(&mut before.position, place, at);
+        before.put(place, at, Vec3::ZERO);
     }
     let motion = [Vec3::ZERO, Vec3::new(0.0, 0.0, 1e-3)];
     let solid = || Solid::ball(&shape.parts()[0], [0.0; 2], motion);
@@ -144,8 +143,8 @@ fn friction_follows_coulombs_law() {
         let mut points = Points::default();
         points.reset(PLACES);
         let at = Vec3::Y * (1.0 + THICKNESS - 0.01);
-        set(&mut points.position, 3, at);
-        set(&mut points.displacement, 3, Vec3::new(slip, -0.01, 0.0));
+        points.put(3, at, Vec3::ZERO);
+        points.set_motion(3, Vec3::new(slip, -0.01, 0.0));
         (points.inverse_mass[3], points.presence[3]) = (1.0, 1.0);
         let shape = ball();
         let solid = || Solid::ball(&shape.parts()[0], [0.0; 2], [Vec3::ZERO; 2]);
