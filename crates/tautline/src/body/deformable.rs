@@ -31,6 +31,8 @@ pub(crate) struct Deformable {
     /// The length that a rope is being wound to, in m.
     pub(crate) winding: Option<f32>,
     pub(crate) fabric: Fabric,
+    /// What rounding has left of its positions, in m; none before the first step.
+    pub(crate) remainders: Vec<Vec3>,
     /// λ of each angle, then of each bending: scratch memory, zeroed at the start of a substep.
     #[serde(skip)]
     pub(crate) multipliers: Vec<f32>,
@@ -106,6 +108,7 @@ impl Deformable {
             neighbours,
             winding: None,
             fabric,
+            remainders: Vec::new(),
             multipliers: Vec::new(),
         })
     }
@@ -132,6 +135,12 @@ impl Deformable {
     pub(crate) fn reach(&self) -> f32 {
         let largest = self.tree.leaf_spheres().iter().map(|sphere| sphere.radius).fold(0.0, f32::max);
         largest.max(self.thickness)
+    }
+
+    /// What rounding has left of the position of a particle, in m; nothing if the particle has been put elsewhere since.
+    pub(crate) fn remainder(&self, particle: usize, position: Vec3) -> Vec3 {
+        let remainder = self.remainders.get(particle).copied().unwrap_or_default();
+        if position + remainder == position { remainder } else { Vec3::ZERO }
     }
 
     /// Refuses what the paper's solver does not know.

@@ -140,10 +140,9 @@ impl SoftSolver {
     fn read(&mut self, number: usize, bodies: &[Body], particles: &Particles, fall: Vec3, small: f32) {
         let piece = &mut self.pieces[number];
         let body = &bodies[piece.body];
-        if let Substance::Deformable(deformable) = &body.substance {
-            piece.tie(body, deformable, particles);
-            piece.note_winding(deformable);
-        }
+        let Substance::Deformable(deformable) = &body.substance else { return };
+        piece.tie(body, deformable, particles);
+        piece.note_winding(deformable);
         piece.rest = Rest { calm_for: body.rest.calm_for, ..Rest::default() };
         let scale = small / body.displacement_time();
         // Half of how much longer than this the last small step was: see `VerletStep`.
@@ -160,7 +159,9 @@ impl SoftSolver {
             } else if displacement != Vec3::ZERO {
                 self.led.push((place, displacement));
             }
-            self.points.put(place, particles.position[i], displacement);
+            let position = particles.position[i];
+            self.points.put(place, position, displacement);
+            self.points.carry(place, deformable.remainder(number, position));
             self.points.inverse_mass[place] = mass;
         }
     }
@@ -310,6 +311,9 @@ impl SoftSolver {
             }
             body.previous_step = small;
             if let Substance::Deformable(deformable) = &mut body.substance {
+                deformable.remainders.clear();
+                let places = (0..body.particles.len()).map(|number| piece.place(number));
+                deformable.remainders.extend(places.map(|place| self.points.rest(place)));
                 let stitches = &piece.seams.stitches;
                 for (seam, stitch) in deformable.fabric.seams.iter_mut().zip(stitches) {
                     seam.rest_length = stitch.rest_length;

@@ -32,14 +32,23 @@ impl Cone {
     }
 }
 
+/// A cell is folded where the square of its free diagonal is less than this share of that of the other: by 75° and more.
+const FOLDED: f32 = 0.63;
+
 /// The cone of a sheet's tile, whose particles are at `positions`, from the diagonals of its cells.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(super) fn cone_of<L: Lanes>(grid: &Grid, tile: &Tile, positions: &Coordinates, points: &Points) -> Cone {
     let mut normals = [Vec3x8::<L>::zero(); super::tile::MOST_EIGHTS];
     let mut sum = Vec3x8::<L>::zero();
+    let mut folded = 0;
     for (normal, &place) in normals.iter_mut().zip(&tile.eights) {
-        *normal = cell_normals(grid, place as usize, positions, points);
+        let cells = cells::<L>(grid, place as usize, positions, points);
+        *normal = cells.0;
+        folded |= cells.1.bits();
         sum = sum + *normal;
+    }
+    if folded != 0 {
+        return Cone::ALL;
     }
     let axis = total(sum);
     let length = axis.norm();
@@ -56,23 +65,25 @@ pub(super) fn cone_of<L: Lanes>(grid: &Grid, tile: &Tile, positions: &Coordinate
     Cone { axis, cosine: -(-least).largest() }
 }
 
-/// Unit normals of the eight cells whose first corners are these places; 0 where there is no cell.
+/// Unit normals of the eight cells whose first corners are these places, 0 where there is no cell; and a mask of those that
+/// are folded along the diagonal that holds them, whose halves face different ways.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-fn cell_normals<L: Lanes>(grid: &Grid, place: usize, positions: &Coordinates, points: &Points) -> Vec3x8<L> {
+fn cells<L: Lanes>(grid: &Grid, place: usize, positions: &Coordinates, points: &Points) -> (Vec3x8<L>, L) {
     let (stride, half) = (grid.stride(), grid.half);
     let row = (place - grid.start) / stride;
+    let none = L::splat(0.0).greater(L::splat(0.0));
     if row + 1 >= grid.rows {
-        return Vec3x8::zero();
+        return (Vec3x8::zero(), none);
     }
     let is_odd = (place - grid.start) % stride >= half;
     let right = if is_odd { place - half + 1 } else { place + half };
-    let at = |place: usize| place;
-    let there = points.are_there::<L>(place).and(points.are_there::<L>(at(right)));
+    let there = points.are_there::<L>(place).and(points.are_there::<L>(right));
     let down = Vec3x8::<L>::read(positions, right + stride) - Vec3x8::read(positions, place);
     let up = Vec3x8::<L>::read(positions, place + stride) - Vec3x8::read(positions, right);
     let across = down.cross(up);
     let length = across.length_squared().max(L::splat(1e-30)).sqrt();
-    across * there.and(L::splat(1.0) / length)
+    let is_folded = (down.length_squared() * L::splat(FOLDED)).greater(up.length_squared());
+    (across * there.and(L::splat(1.0) / length), there.and(is_folded))
 }
 
 #[inline(always)]

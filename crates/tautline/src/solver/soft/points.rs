@@ -96,16 +96,20 @@ impl Points {
         set(&mut self.remainder, place, Vec3::ZERO);
     }
 
-    /// Ends a substep: nothing is carried on that the store has no room for, so that substeps are as steps.
+    /// Ends a substep: where a particle is, what rounding left of that and how it moves are told apart without a loss, so
+    /// that substeps are as steps.
     pub(super) fn settle(&mut self) {
         let Self { start, offset, remainder, .. } = self;
         for ((start, offset), remainder) in start.iter_mut().zip(offset).zip(remainder) {
             for ((start, offset), remainder) in start.iter_mut().zip(offset).zip(remainder) {
-                let motion = *offset - *remainder;
-                *start += *offset;
-                (*offset, *remainder) = (0.0, -motion);
+                [*start, *offset, *remainder] = settled([*start, *offset, *remainder]);
             }
         }
+    }
+
+    /// What rounding left of where a particle is when a substep ends, in m.
+    pub(super) fn rest(&self, place: usize) -> Vec3 {
+        get(&self.offset, place)
     }
 
     /// How far a particle has moved in this small step, in m.
@@ -193,6 +197,18 @@ fn sum<L: Lanes>(a: Vec3x8<L>, b: Vec3x8<L>) -> (Vec3x8<L>, Vec3x8<L>) {
     let sum = a + b;
     let of_b = sum - a;
     (sum, (a - (sum - of_b)) + (b - of_b))
+}
+
+/// A coordinate's start, offset and remainder, with the offset in the start, such that the offset is what rounding leaves,
+/// and the offset less the remainder the motion, exactly: the smaller of the two loses what the larger has no digits for.
+fn settled([start, offset, remainder]: [f32; 3]) -> [f32; 3] {
+    let motion = offset - remainder;
+    let at = start + offset;
+    let of_offset = at - start;
+    let rest = (start - (at - of_offset)) + (offset - of_offset);
+    let back = rest - motion;
+    let rest = if motion.abs() >= rest.abs() { back + motion } else { rest };
+    if at + rest == at { [at, rest, back] } else { [at, 0.0, -motion] }
 }
 
 /// Particles that a kernel moves: where their small step began, and how far they are from there.

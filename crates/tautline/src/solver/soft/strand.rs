@@ -290,11 +290,8 @@ fn push(
         return None;
     }
     let length = gap.norm();
-    let (normal, apart) = if has_passed {
-        (before.unit_or(Vec3::Y), -length)
-    } else {
-        (gap.unit_or(Vec3::Y), length)
-    };
+    let (normal, apart) =
+        if has_passed { (before.unit_or(Vec3::Y), -length) } else { (gap.unit_or(Vec3::Y), length) };
     let depth = distance - apart;
     let across = slip - normal * slip.dot(normal);
     let grip = (friction * depth / across.norm().max(1e-9)).min(1.0);
