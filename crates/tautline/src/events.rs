@@ -192,7 +192,7 @@ impl World {
     /// }
     /// assert_eq!(sounds.len(), 1);
     /// let (place, speed) = sounds[0];
-    /// assert!(place.norm() < 1e-3 && (speed - (2.0_f32 * 9.81 * 0.9).sqrt()).abs() < 0.05);
+    /// assert!(place.length() < 1e-3 && (speed - (2.0_f32 * 9.81 * 0.9).sqrt()).abs() < 0.05);
     /// # Ok::<(), tautline::Error>(())
     /// ```
     pub fn contact_events(&self) -> &[ContactEvent] {

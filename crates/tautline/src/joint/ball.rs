@@ -19,7 +19,7 @@ use crate::world::BodyHandle;
 ///     world.step(1.0 / 60.0)?;
 /// }
 /// let [on_ball, on_world] = world.joint(joint)?.anchors();
-/// assert!(on_ball.distance_to(on_world) < 1e-5, "it swings about the origin");
+/// assert!(on_ball.distance(on_world) < 1e-5, "it swings about the origin");
 /// # Ok::<(), tautline::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]

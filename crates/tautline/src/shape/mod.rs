@@ -41,8 +41,8 @@ pub(crate) use surface::Surface;
 /// let plank = Shape::cuboid(Vec3::new(0.1, 0.02, 1.0))?;
 /// assert_eq!(plank.volume(), 0.016);
 /// // ∫ x² dV / V = h² / 3, the longest axis first.
-/// assert!(plank.second_moments().distance_to(Vec3::new(1.0, 0.01, 0.0004) / 3.0) < 1e-7);
-/// assert!((plank.principal_rotation() * Vec3::X).distance_to(Vec3::Z) < 1e-6);
+/// assert!(plank.second_moments().distance(Vec3::new(1.0, 0.01, 0.0004) / 3.0) < 1e-7);
+/// assert!((plank.principal_rotation() * Vec3::X).distance(Vec3::Z) < 1e-6);
 /// # Ok::<(), tautline::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -122,7 +122,7 @@ impl World {
     /// for _ in 0..60 {
     ///     world.step(1.0 / 60.0)?;
     /// }
-    /// assert!(world.body(ball)?.center_of_mass().distance_to(Vec3::X) < 0.01);
+    /// assert!(world.body(ball)?.center_of_mass().distance(Vec3::X) < 0.01);
     /// world.release(grab)?;
     /// # Ok::<(), tautline::Error>(())
     /// ```
