@@ -19,8 +19,8 @@ pub struct CoarseHull {
 
 impl ConvexHull {
     /// The hull of as many of its corners as it takes to be no farther than `tolerance` (m) from the whole, but of at least
-    /// four and at most `max_corners`. Each next corner is the one that is farthest from the hull of those before. The same hull gives the same
-    /// bits.
+    /// four and at most `max_corners`. Each next corner is the one that is farthest from the hull of those before. The same
+    /// hull gives the same bits.
     ///
     /// # Errors
     ///

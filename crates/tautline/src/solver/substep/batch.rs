@@ -104,6 +104,7 @@ pub(super) struct Colouring {
     used: Vec<u64>,
     /// The class of each pair: its colour and number of points.
     classes: Vec<u32>,
+    /// Of each class, where its pairs go.
     slots: Vec<Slots>,
     /// The pairs that found no colour among the last 64.
     left: Vec<u32>,
@@ -118,6 +119,7 @@ struct Slots {
     /// How many of them in another batch, and from which lane on: lanes are counted through all batches.
     guests: u32,
     guest_lane: u32,
+    /// From which lane on the others are.
     lane: u32,
 }
 
