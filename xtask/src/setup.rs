@@ -78,22 +78,23 @@ pub(crate) fn miri(project: &Project) -> Result<Outcome, String> {
     if files.iter().all(|file| unsafe_lines(file).is_empty()) {
         return Ok(Outcome::Noted("there is no unsafe code, so nothing for Miri to judge".into()));
     }
-    // Only the tests of the folder that has unsafe code, since Miri is slow.
-    miri_test(project, "tautline", "simd::")
+    // Only the tests of the folders that have unsafe code, since Miri is slow.
+    miri_test(project, "tautline", &["simd::", "parallel::team::"])
 }
 
 /// Miri runs the unit tests of the mesh readers, over seeds that are changed and cut off.
 pub(crate) fn miri_of_readers(project: &Project) -> Result<Outcome, String> {
-    miri_test(project, "tautline-scene", "mesh_file::")
+    miri_test(project, "tautline-scene", &["mesh_file::"])
 }
 
-/// Runs the unit tests of a package that have this in their names under Miri.
-fn miri_test(project: &Project, package: &str, tests: &str) -> Result<Outcome, String> {
+/// Runs the unit tests of a package that have any of these in their names under Miri.
+fn miri_test(project: &Project, package: &str, tests: &[&str]) -> Result<Outcome, String> {
     let toolchain =
         ["toolchain", "install", "nightly", "--profile", "minimal", "--component", "miri,rust-src"];
     run(&mut program(project, "rustup", &toolchain))?;
     // Through rustup: the Cargo that runs this program is of the stable toolchain.
-    let test = ["run", "nightly", "cargo", "miri", "test", "--locked", "-p", package, "--lib", tests];
+    let test = ["run", "nightly", "cargo", "miri", "test", "--locked", "-p", package, "--lib", "--"];
+    let test: Vec<&str> = test.iter().chain(tests).copied().collect();
     // The unsafe code is about these instructions.
     run(program(project, "rustup", &test).env("RUSTFLAGS", "-C target-feature=+avx2"))?;
     Ok(Outcome::Passed)

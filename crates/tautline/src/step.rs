@@ -5,6 +5,7 @@ use glam::Vec3;
 use crate::body::{Body, Substance};
 use crate::collision::{Aabb, Candidate, Scene, find_pairs};
 use crate::error::{Error, within};
+use crate::parallel;
 use crate::particles::VerletStep;
 use crate::report::{Clock, Fault, Phase, StepReport, Stopwatch};
 use crate::rest::{put_to_sleep, wake_touched};
@@ -35,6 +36,10 @@ impl World {
     /// As [`World::step`].
     pub fn step_with_clock(&mut self, dt: f32, clock: &mut Clock<'_>) -> Result<StepReport, Error> {
         within("dt", dt, 1e-7, 1.0, "a time from 1e-7 to 1 (s)")?;
+        Ok(parallel::as_team(self.rigid.is_wide(), || self.advance(dt, clock)))
+    }
+
+    fn advance(&mut self, dt: f32, clock: &mut Clock<'_>) -> StepReport {
         self.index.take();
         let mut report = StepReport::default();
         let mut watch = Stopwatch::start(clock);
@@ -73,7 +78,7 @@ impl World {
         self.time += f64::from(dt);
         report.seconds = watch.finish();
         report.awake_bodies = self.bodies.iter().filter(|body| body.is_awake()).count();
-        Ok(report)
+        report
     }
 
     /// Reads cloth and rope, if they move in small steps.

@@ -169,6 +169,11 @@ impl RigidSolver {
         self.pairs.pairs.len()
     }
 
+    /// Whether there is so much to do in a substep that it is cut into parts.
+    pub(crate) fn is_wide(&self) -> bool {
+        self.lineup.stripes.len() > 1
+    }
+
     /// Forgets what concerns the last step alone.
     pub(crate) fn begin_step(&mut self) {
         self.is_hasty = false;

@@ -1,6 +1,9 @@
 //! Spreading independent work over the rayon pool that a step is called from. Results do not depend on how
 //! many threads there are: every item is worked on by itself, and results are put together in order.
 
+#[cfg(feature = "parallel")]
+mod team;
+
 /// Whether work on so many items should be spread: there are more threads than one, and `least` items.
 pub(crate) fn is_worthwhile(count: usize, least: usize) -> bool {
     #[cfg(feature = "parallel")]
@@ -10,13 +13,23 @@ pub(crate) fn is_worthwhile(count: usize, least: usize) -> bool {
     count >= least && threads > 1
 }
 
+/// Does `work`, in which many short pieces are spread one after another: meanwhile threads of the pool stay awake and
+/// wait for them, since to wake one takes longer than many a piece.
+pub(crate) fn as_team<R>(worthwhile: bool, work: impl FnOnce() -> R) -> R {
+    #[cfg(feature = "parallel")]
+    if worthwhile && rayon::current_num_threads() > 1 {
+        return team::gathered(work);
+    }
+    let _ = worthwhile;
+    work()
+}
+
 /// Calls `work` on every item, side by side if `worthwhile` and there are several: waking threads costs some ten
-/// microseconds.
+/// microseconds, handing something to a team less than one.
 pub(crate) fn for_each<T: Send>(items: &mut [T], worthwhile: bool, work: impl Fn(&mut T) + Send + Sync) {
     #[cfg(feature = "parallel")]
     if worthwhile && items.len() > 1 && rayon::current_num_threads() > 1 {
-        use rayon::prelude::*;
-        items.par_iter_mut().for_each(&work);
+        team::for_each(items, work);
         return;
     }
     let _ = worthwhile;
@@ -29,25 +42,20 @@ pub(crate) fn filter_map<T: Send, S: Default, R: Send>(
     worthwhile: bool,
     scratch: &mut S,
     out: &mut Vec<R>,
-    work: impl Fn(&mut S, &mut T) -> Option<R> + Sync,
+    work: impl Fn(&mut S, &mut T) -> Option<R> + Send + Sync,
 ) {
-    #[cfg(feature = "parallel")]
-    if worthwhile && rayon::current_num_threads() > 1 {
-        use rayon::prelude::*;
-        let chunk_results: Vec<Vec<R>> = items
-            .par_chunks_mut(CHUNK)
-            .map(|chunk| {
-                let mut scratch = S::default();
-                chunk.iter_mut().filter_map(|item| work(&mut scratch, item)).collect()
-            })
-            .collect();
-        out.extend(chunk_results.into_iter().flatten());
+    if !worthwhile {
+        out.extend(items.iter_mut().filter_map(|item| work(scratch, item)));
         return;
     }
-    let _ = worthwhile;
-    out.extend(items.iter_mut().filter_map(|item| work(scratch, item)));
+    let mut chunks: Vec<(&mut [T], Vec<R>)> =
+        items.chunks_mut(CHUNK).map(|chunk| (chunk, Vec::new())).collect();
+    for_each(&mut chunks, true, |(chunk, results)| {
+        let mut scratch = S::default();
+        results.extend(chunk.iter_mut().filter_map(|item| work(&mut scratch, item)));
+    });
+    out.extend(chunks.into_iter().flat_map(|(_, results)| results));
 }
 
 /// Items that a thread takes at a time: enough work to be worth fetching.
-#[cfg(feature = "parallel")]
 const CHUNK: usize = 64;
