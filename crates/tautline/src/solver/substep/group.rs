@@ -13,6 +13,7 @@ use super::lineup::{Lineup, Region};
 use super::pairs::{Pair, Pairs, fit, reserve};
 use super::prepare::{Poses, fill};
 use super::rolling::Rolling;
+use super::stack::Found;
 
 /// From so many pairs on it pays to sort them side by side, …
 const WORTHWHILE: usize = 4096;
@@ -98,7 +99,7 @@ impl Group {
 }
 
 /// A pair as its group sees it, if it has points and a body that is solved for.
-fn active(lineup: &Lineup, (index, pair): (usize, &Pair), is_stacked: bool) -> Option<(Region, Active)> {
+fn active(lineup: &Lineup, (index, pair): (usize, &Pair)) -> Option<(Region, Active)> {
     if pair.points == 0 {
         return None;
     }
@@ -116,7 +117,7 @@ fn active(lineup: &Lineup, (index, pair): (usize, &Pair), is_stacked: bool) -> O
         points: pair.points as u8,
         moves_a: (place_a as usize) < lineup.solved,
         moves_b: (place_b as usize) < lineup.solved,
-        is_stacked,
+        is_stacked: false,
     };
     Some((region, active))
 }
@@ -147,16 +148,11 @@ impl Groups {
     }
 
     /// Sorts the pairs that have points, and of which a body is solved for, into their groups.
-    /// `is_stacked` tells of each pair whether it belongs to a stack; of those behind its end it does not.
-    pub(super) fn sort_in(&mut self, pairs: &Pairs, lineup: &Lineup, is_stacked: &[bool]) {
+    pub(super) fn sort_in(&mut self, pairs: &Pairs, lineup: &Lineup) {
         self.groups.iter_mut().for_each(|group| group.active.clear());
-        let sort = |(index, pair): (usize, &Pair)| {
-            let is_stacked = is_stacked.get(index).copied().unwrap_or(false);
-            active(lineup, (index, pair), is_stacked)
-        };
         let numbered = pairs.pairs.iter().enumerate();
         if !parallel::is_worthwhile(pairs.pairs.len(), WORTHWHILE) {
-            for (region, active) in numbered.filter_map(sort) {
+            for (region, active) in numbered.filter_map(|pair| active(lineup, pair)) {
                 self.group_of(region).active.push(active);
             }
             return;
@@ -164,10 +160,30 @@ impl Groups {
         let mut sorted = vec![Vec::new(); pairs.pairs.len().div_ceil(CHUNK)];
         let mut chunks: Vec<_> = (0..).step_by(CHUNK).zip(&mut sorted).collect();
         parallel::for_each(&mut chunks, true, |(start, sorted)| {
-            sorted.extend(numbered.clone().skip(*start).take(CHUNK).filter_map(sort));
+            sorted.reserve(CHUNK);
+            sorted.extend(
+                numbered.clone().skip(*start).take(CHUNK).filter_map(|pair| active(lineup, pair)),
+            );
         });
         for (region, active) in sorted.into_iter().flatten() {
             self.group_of(region).active.push(active);
+        }
+    }
+
+    /// All pairs that were sorted in, group after group.
+    pub(super) fn active(&self) -> impl Iterator<Item = &Active> {
+        self.groups.iter().flat_map(|group| &group.active)
+    }
+
+    /// Notes of the pairs of stacks that they belong to one.
+    pub(super) fn mark_stacks(&mut self, stacks: &[Found], pair_count: usize) {
+        if stacks.is_empty() {
+            return;
+        }
+        let mut is_stacked = vec![false; pair_count];
+        stacks.iter().flat_map(|stack| &stack.pairs).for_each(|&pair| is_stacked[pair as usize] = true);
+        for active in self.groups.iter_mut().flat_map(|group| &mut group.active) {
+            active.is_stacked = is_stacked[active.pair as usize];
         }
     }
 

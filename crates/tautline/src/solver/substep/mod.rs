@@ -288,9 +288,10 @@ impl RigidSolver {
     pub(crate) fn prepare(&mut self, bodies: &[Body], settings: &Settings, h: f32) {
         self.softness = Softness::new(h, settings.separation_speed.unwrap_or(f32::INFINITY));
         let timing = self.timing(settings, h);
-        let found = stack::find(&self.pairs, (&self.lineup, &self.crew, &timing), &self.assembly_of);
-        let is_stacked = stack::marks(&found, self.pairs.pairs.len());
-        self.groups.sort_in(&self.pairs, &self.lineup, &is_stacked);
+        self.groups.sort_in(&self.pairs, &self.lineup);
+        let standing = (&self.lineup, &self.crew, &timing);
+        let found = stack::find((&self.groups, &self.pairs), standing, &self.assembly_of);
+        self.groups.mark_stacks(&found, self.pairs.pairs.len());
         let (poses, ground) = (&self.crew.poses, self.lineup.ground());
         self.groups.prepare(&self.pairs, poses, ground, &mut self.crew.accumulated, settings.instructions);
         self.listener.begin(&self.groups, &self.pairs, bodies, &self.lineup);

@@ -7,7 +7,9 @@
 
 use glam::Vec3;
 
+use super::super::batch::Active;
 use super::super::crew::{Crew, Timing};
+use super::super::group::Groups;
 use super::super::held::Held;
 use super::super::joint::Sets;
 use super::super::lineup::{Lineup, NOBODY};
@@ -42,7 +44,7 @@ pub(in super::super) struct Found {
 /// A pair that touches: its index, and the places of its bodies.
 type Touch = (u32, [u32; 2]);
 
-/// Bodies that touch one another, ascending, and where. Of too many bodies it is not told where.
+/// Bodies that touch one another, and where, both ascending.
 #[derive(Debug, Clone, Default)]
 struct Island {
     places: Vec<u32>,
@@ -51,7 +53,7 @@ struct Island {
 
 /// Finds all stacks, given what joints hold. Without gravity there are none: nothing leans.
 pub(in super::super) fn find(
-    pairs: &Pairs,
+    (groups, pairs): (&Groups, &Pairs),
     (lineup, crew, timing): (&Lineup, &Crew, &Timing),
     assembly_of: &[u32],
 ) -> Vec<Found> {
@@ -70,7 +72,7 @@ pub(in super::super) fn find(
         left -= if is_one { places.len() } else { 0 };
         is_one
     };
-    let stacks = islands(pairs, lineup).into_iter().filter(|island| is_stack(island));
+    let stacks = islands(groups, lineup.solved).into_iter().filter(|island| is_stack(island));
     let found = |Island { places, touches }| {
         let pairs = touches.into_iter().map(|(pair, _)| pair).collect();
         Found { places, pairs }
@@ -78,47 +80,48 @@ pub(in super::super) fn find(
     stacks.map(found).collect()
 }
 
-/// Of each pair whether it is in a stack; none if no pair is.
-pub(in super::super) fn marks(found: &[Found], pair_count: usize) -> Vec<bool> {
-    let mut marks = vec![false; if found.is_empty() { 0 } else { pair_count }];
-    found.iter().flat_map(|found| &found.pairs).for_each(|&pair| marks[pair as usize] = true);
-    marks
-}
-
-/// Everything that touches something, in the order of the lowest places.
-fn islands(pairs: &Pairs, lineup: &Lineup) -> Vec<Island> {
-    let place = |body: u32| lineup.place_of.get(body as usize).copied().unwrap_or(u32::MAX);
-    let is_solved = |place: &u32| (*place as usize) < lineup.solved;
-    let touches = || {
-        let touching = (0..).zip(&pairs.pairs).filter(|(_, pair)| pair.points > 0);
-        touching.map(|(index, pair)| (index, [place(pair.a), place(pair.b).min(lineup.ground())]))
-    };
-    let mut sets = Sets::new(lineup.solved);
-    let mut touches_any = vec![false; lineup.solved];
-    for (_, ends) in touches() {
-        ends.iter().filter(|place| is_solved(place)).for_each(|&place| touches_any[place as usize] = true);
-        if ends.iter().all(is_solved) {
-            sets.join(ends[0], ends[1]);
+/// What touches something, in the order of the lowest places, but for islands of too many bodies.
+fn islands(groups: &Groups, solved: usize) -> Vec<Island> {
+    let mut sets = Sets::new(solved);
+    let mut touches_any = vec![false; solved];
+    for Active { place_a, place_b, moves_a, moves_b, .. } in groups.active() {
+        for (place, moves) in [(place_a, moves_a), (place_b, moves_b)] {
+            if *moves {
+                touches_any[*place as usize] = true;
+            }
+        }
+        if *moves_a && *moves_b {
+            sets.join(*place_a, *place_b);
         }
     }
-    let mut islands: Vec<Island> = Vec::new();
+    let touching = || (0..solved as u32).filter(|&place| touches_any[place as usize]);
     // By the lowest of its places, which is the root of the set.
-    let mut numbers = vec![0; lineup.solved];
-    for place in (0..lineup.solved as u32).filter(|&place| touches_any[place as usize]) {
+    let mut sizes = vec![0; solved];
+    touching().for_each(|place| sizes[sets.root(place) as usize] += 1);
+    let mut islands: Vec<Island> = Vec::new();
+    let mut numbers = vec![0; solved];
+    for place in touching() {
         let root = sets.root(place);
+        if sizes[root as usize] > MOST_BODIES {
+            continue;
+        }
         if root == place {
             numbers[root as usize] = islands.len();
             islands.push(Island::default());
         }
         islands[numbers[root as usize]].places.push(place);
     }
-    for (index, ends) in touches() {
-        let Some(&end) = ends.iter().find(|place| is_solved(place)) else { continue };
-        let island = &mut islands[numbers[sets.root(end) as usize]];
-        if island.places.len() <= MOST_BODIES {
-            island.touches.push((index, ends));
+    if islands.is_empty() {
+        return islands;
+    }
+    for active in groups.active() {
+        let place = if active.moves_a { active.place_a } else { active.place_b };
+        let root = sets.root(place) as usize;
+        if sizes[root] <= MOST_BODIES {
+            islands[numbers[root]].touches.push((active.pair, [active.place_a, active.place_b]));
         }
     }
+    islands.iter_mut().for_each(|island| island.touches.sort_unstable());
     islands
 }
 

@@ -23,7 +23,7 @@ use super::elimination::Part;
 use super::group::{Groups, Lane};
 
 use contact::{Contact, Point};
-pub(super) use find::{Found, find, marks};
+pub(super) use find::{Found, find};
 use matrix::System;
 
 /// From so many contacts on it pays to solve stacks side by side.
