@@ -4,20 +4,24 @@
 #[cfg(feature = "parallel")]
 mod team;
 
+/// How many threads may work side by side.
+pub(crate) fn threads() -> usize {
+    #[cfg(feature = "parallel")]
+    return rayon::current_num_threads();
+    #[cfg(not(feature = "parallel"))]
+    return 1;
+}
+
 /// Whether work on so many items should be spread: there are more threads than one, and `least` items.
 pub(crate) fn is_worthwhile(count: usize, least: usize) -> bool {
-    #[cfg(feature = "parallel")]
-    let threads = rayon::current_num_threads();
-    #[cfg(not(feature = "parallel"))]
-    let threads = 1;
-    count >= least && threads > 1
+    count >= least && threads() > 1
 }
 
 /// Does `work`, in which many short pieces are spread one after another: meanwhile threads of the pool stay awake and
 /// wait for them, since to wake one takes longer than many a piece.
 pub(crate) fn as_team<R>(worthwhile: bool, work: impl FnOnce() -> R) -> R {
     #[cfg(feature = "parallel")]
-    if worthwhile && rayon::current_num_threads() > 1 {
+    if worthwhile && threads() > 1 {
         return team::gathered(work);
     }
     let _ = worthwhile;
@@ -28,7 +32,7 @@ pub(crate) fn as_team<R>(worthwhile: bool, work: impl FnOnce() -> R) -> R {
 /// microseconds, handing something to a team less than one.
 pub(crate) fn for_each<T: Send>(items: &mut [T], worthwhile: bool, work: impl Fn(&mut T) + Send + Sync) {
     #[cfg(feature = "parallel")]
-    if worthwhile && items.len() > 1 && rayon::current_num_threads() > 1 {
+    if worthwhile && items.len() > 1 && threads() > 1 {
         team::for_each(items, work);
         return;
     }

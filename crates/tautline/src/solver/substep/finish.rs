@@ -19,8 +19,6 @@ use crate::simd::{LANES, Row};
 const WORTHWHILE: usize = 1024;
 /// … so many at a time.
 const CHUNK: usize = 256;
-/// In so many runs multipliers are kept.
-const RUNS: usize = 8;
 /// Blocks that are written at a time.
 const BLOCKS: usize = 32;
 
@@ -70,8 +68,9 @@ impl RigidSolver {
         self.groups.iter_mut().filter(|group| !group.active.is_empty()).for_each(Group::forget_blows);
         let (groups, details) = (&self.groups, &mut self.pairs.details);
         let worthwhile = parallel::is_worthwhile(details.len(), WORTHWHILE);
-        // Every run goes through all batches, so there are not many.
-        let run = if worthwhile { details.len().div_ceil(RUNS) } else { details.len().max(1) };
+        // Every run goes through all batches, so there are not more than threads.
+        let runs = if worthwhile { parallel::threads() } else { 1 };
+        let run = details.len().div_ceil(runs).max(1);
         let mut runs: Vec<_> = (0..).step_by(run).zip(details.chunks_mut(run)).collect();
         parallel::for_each(&mut runs, worthwhile, |(first, details)| {
             groups.for_each_lane(*first..*first + details.len() as u32, |pair, lane| {
