@@ -61,5 +61,17 @@ pub(crate) fn filter_map<T: Send, S: Default, R: Send>(
     out.extend(chunks.into_iter().flat_map(|(_, results)| results));
 }
 
+/// What `work` makes of every item, which it is told the number of, in order.
+pub(crate) fn collect<T: Sync, R: Send>(
+    items: &[T],
+    worthwhile: bool,
+    work: impl Fn(usize, &T) -> Option<R> + Send + Sync,
+) -> Vec<R> {
+    let mut numbered: Vec<_> = (0..).zip(items).collect();
+    let mut results = Vec::new();
+    filter_map(&mut numbered, worthwhile, &mut (), &mut results, |(), (number, item)| work(*number, item));
+    results
+}
+
 /// Items that a thread takes at a time: enough work to be worth fetching.
 const CHUNK: usize = 64;

@@ -82,8 +82,7 @@ impl Board {
 
     /// Does `work` on every item with a team of this size.
     fn share<T: Send>(&self, items: &mut [T], size: usize, work: impl Fn(&mut T) + Sync) {
-        let items: Vec<Mutex<Option<&mut T>>> =
-            items.iter_mut().map(|item| Mutex::new(Some(item))).collect();
+        let items: Vec<Mutex<Option<&mut T>>> = items.iter_mut().map(|item| Mutex::new(Some(item))).collect();
         let job = |number: usize| {
             let first = number * items.len() / size;
             for item in items[first..].iter().chain(&items[..first]) {

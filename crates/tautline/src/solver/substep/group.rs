@@ -161,9 +161,7 @@ impl Groups {
         let mut chunks: Vec<_> = (0..).step_by(CHUNK).zip(&mut sorted).collect();
         parallel::for_each(&mut chunks, true, |(start, sorted)| {
             sorted.reserve(CHUNK);
-            sorted.extend(
-                numbered.clone().skip(*start).take(CHUNK).filter_map(|pair| active(lineup, pair)),
-            );
+            sorted.extend(numbered.clone().skip(*start).take(CHUNK).filter_map(|pair| active(lineup, pair)));
         });
         for (region, active) in sorted.into_iter().flatten() {
             self.group_of(region).active.push(active);
@@ -171,7 +169,7 @@ impl Groups {
     }
 
     /// All pairs that were sorted in, group after group.
-    pub(super) fn active(&self) -> impl Iterator<Item = &Active> {
+    pub(super) fn active(&self) -> impl Iterator<Item = &Active> + Clone {
         self.groups.iter().flat_map(|group| &group.active)
     }
 

@@ -48,6 +48,8 @@ pub(super) struct Lineup {
     /// The place of each body of the world; `NOBODY` for those that are not rigid.
     pub(super) place_of: Vec<u32>,
     pub(super) stripes: Vec<Stripe>,
+    /// The number of the stripe that each block of eight places is in.
+    stripe_of_block: Vec<u32>,
     /// How many places are in stripes.
     pub(super) solved: usize,
     /// How many kinematic bodies there are.
@@ -101,6 +103,7 @@ impl Lineup {
         let first_copy = self.places.len() as u32;
         self.places.extend(driven);
         self.fill();
+        self.stripe_of_block.resize(self.places.len() / LANES, self.stripes.len() as u32);
         self.stripes.push(Stripe { places: start..self.places.len() as u32, driven: first_copy });
     }
 
@@ -130,6 +133,8 @@ impl Lineup {
             end = places.end;
             follows && *driven >= places.start && driven.saturating_add(self.driven_count) < places.end
         });
+        let blocks =
+            |(number, stripe): (u32, &Stripe)| std::iter::repeat_n(number, stripe.places.len() / LANES);
         let is_place = |(body, &place): (usize, &u32)| {
             place == NOBODY || self.places.get(place as usize).is_some_and(|&other| other as usize == body)
         };
@@ -137,6 +142,7 @@ impl Lineup {
             && (count == 0 || !self.stripes.is_empty() && self.places[count - 1] == NOBODY)
             && stripes_follow
             && end as usize == self.solved
+            && (0..).zip(&self.stripes).flat_map(blocks).eq(self.stripe_of_block.iter().copied())
             && self.moving() <= count
             && self.place_of.len() <= body_count
             && self.places.iter().all(|&body| is_body(body))
@@ -179,8 +185,7 @@ impl Lineup {
 
     /// The number of the stripe that a place is in, if it is solved for.
     fn stripe_of(&self, place: u32) -> Option<u32> {
-        let after = self.stripes.partition_point(|stripe| stripe.places.start <= place) as u32;
-        ((place as usize) < self.solved).then(|| after - 1)
+        self.stripe_of_block.get(place as usize / LANES).copied()
     }
 
     /// Where a pair of places is solved, if one of them is.

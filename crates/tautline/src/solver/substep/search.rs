@@ -17,6 +17,8 @@ use crate::simd::Instructions;
 
 /// From so many bodies on it pays to enclose them side by side.
 const WORTHWHILE: usize = 1024;
+/// So many that have left theirs are looked at at a time.
+const CHUNK: usize = 32;
 /// If more than one in so many leaves its box, all are made anew.
 const FEW: usize = 8;
 
@@ -107,13 +109,16 @@ impl RigidSolver {
             search.replace(boxed, *bounds);
         }
         let mut is_leaver = vec![false; bodies.len()];
-        search.keys.clear();
-        for (boxed, bounds) in &leavers {
-            is_leaver[boxed.body as usize] = true;
-            let scene = (&*lineup, &*crew, bodies, &separated[..]);
-            search.pair_one(scene, (boxed, bounds), settings.instructions);
-            pair_with_half_spaces(crew, bodies, (boxed, bounds), &search.walls, &mut search.keys);
-        }
+        leavers.iter().for_each(|(boxed, _)| is_leaver[boxed.body as usize] = true);
+        let scene = (&*lineup, &*crew, bodies, &separated[..]);
+        let mut tasks: Vec<_> = leavers.chunks(CHUNK).map(|leavers| (leavers, Vec::new())).collect();
+        parallel::for_each(&mut tasks, true, |(leavers, keys)| {
+            for (boxed, bounds) in *leavers {
+                search.pair_one(scene, (boxed, bounds), keys, settings.instructions);
+                pair_with_half_spaces(scene.1, bodies, (boxed, bounds), &search.walls, keys);
+            }
+        });
+        search.keys = tasks.into_iter().flat_map(|(_, keys)| keys).collect();
         // Two leavers have found each other.
         search.keys.sort_unstable();
         search.keys.dedup();
@@ -192,12 +197,13 @@ impl BoxSearch {
 
     /// All pairs of one box.
     fn pair_one(
-        &mut self,
+        &self,
         (lineup, crew, bodies, separated): (&Lineup, &Crew, &[Body], &[[u32; 2]]),
         (boxed, bounds): (&Boxed, &Aabb),
+        keys: &mut Vec<Key>,
         instructions: Instructions,
     ) {
-        let Self { overlaps, places, keys, .. } = self;
+        let Self { overlaps, places, .. } = self;
         overlaps.overlaps(*bounds, instructions, |number| {
             let place = places[number as usize];
             let body = lineup.places[place as usize];

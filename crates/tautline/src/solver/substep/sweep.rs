@@ -20,9 +20,10 @@ use super::RigidSolver;
 use super::block::Block;
 use super::lineup::NOBODY;
 use super::meet::Candidate;
-use super::pairs::{Detail, Pair};
+use super::pairs::{Detail, Pair, Pairs};
 use super::way::Way;
 use crate::norm::Norm;
+use crate::parallel;
 use crate::simd::{Instructions, Kernel, LANES, Lanes, Vec3x8, run};
 
 /// The sizes of cores, as shares of that of their part; those of what joints hold; and of that on the way of a whole step.
@@ -35,6 +36,8 @@ const FAST: f32 = 0.5;
 const AT_ONCE: f64 = 0.1;
 /// The angle that what was stopped so may turn by in a substep, in rad.
 const MOST_TURN: f32 = 0.5;
+/// From so many pairs on it pays to look at them side by side.
+const WORTHWHILE: usize = 1024;
 /// How often ways are looked at again after some were cut short; the last time what still meets does not move.
 const ROUNDS: usize = 8;
 
@@ -107,12 +110,18 @@ impl RigidSolver {
     /// Cuts ways short until nothing meets on them. Returns who hardly moved for it.
     fn cut_short(&self, candidates: &[Candidate<'_>], ways: &mut Ways) -> Vec<Blocked> {
         let mut blocked = Vec::new();
+        // Most do not meet as long as neither way is cut.
+        let worthwhile = parallel::is_worthwhile(candidates.len(), WORTHWHILE);
+        let meets = parallel::collect(candidates, worthwhile, |_, candidate| {
+            let [a, b] = candidate.places.map(|place| ways[place].filter(Way::is_finite));
+            Some(a.zip(b).is_some_and(|(a, b)| candidate.first_touch(&a, &b).is_some()))
+        });
         for round in 0..ROUNDS {
             let mut has_met = false;
-            for candidate in candidates {
+            for (candidate, meets) in candidates.iter().zip(&meets) {
                 let [place_a, place_b] = candidate.places;
                 let [Some(mut a), Some(mut b)] = [ways[place_a], ways[place_b]] else { continue };
-                let is_known = round > 0 && !a.is_cut && !b.is_cut;
+                let is_known = (round > 0 || !meets) && !a.is_cut && !b.is_cut;
                 if is_known || !(a.is_finite() && b.is_finite()) {
                     continue;
                 }
@@ -191,6 +200,8 @@ impl RigidSolver {
             };
             Candidate::new(moving.map(|place| place as usize), cores, shapes, [detail.part_a, detail.part_b])
         };
-        self.pairs.pairs.iter().zip(&self.pairs.details).filter_map(candidate).collect()
+        let Pairs { pairs, details } = &self.pairs;
+        let worthwhile = parallel::is_worthwhile(pairs.len(), WORTHWHILE);
+        parallel::collect(pairs, worthwhile, |number, pair| candidate((pair, &details[number])))
     }
 }

@@ -7,13 +7,13 @@
 
 use glam::Vec3;
 
-use super::super::batch::Active;
 use super::super::crew::{Crew, Timing};
 use super::super::group::Groups;
 use super::super::held::Held;
 use super::super::joint::Sets;
 use super::super::lineup::{Lineup, NOBODY};
 use super::super::pairs::Pairs;
+use super::grouped::Grouped;
 use crate::norm::Norm;
 
 /// The most bodies of a stack, and pairs of parts.
@@ -45,10 +45,9 @@ pub(in super::super) struct Found {
 type Touch = (u32, [u32; 2]);
 
 /// Bodies that touch one another, and where, both ascending.
-#[derive(Debug, Clone, Default)]
-struct Island {
-    places: Vec<u32>,
-    touches: Vec<Touch>,
+struct Island<'a> {
+    places: &'a [u32],
+    touches: &'a [Touch],
 }
 
 /// Finds all stacks, given what joints hold. Without gravity there are none: nothing leans.
@@ -62,9 +61,9 @@ pub(in super::super) fn find(
     }
     let quiet = QUIET * timing.h * timing.substeps;
     let mut left = MOST_IN_ALL;
-    let mut is_stack = |island: &Island| {
+    let mut is_stack = |island: &Island<'_>| {
         let Island { places, touches } = island;
-        let is_one = places.len() <= MOST_BODIES.min(left)
+        let is_one = places.len() <= left
             && touches.len() <= MOST_PAIRS
             && !places.iter().any(|&place| assembly_of[place as usize] != NOBODY)
             && fastest(touches, pairs, (crew, timing.substeps)) < quiet
@@ -72,57 +71,49 @@ pub(in super::super) fn find(
         left -= if is_one { places.len() } else { 0 };
         is_one
     };
-    let stacks = islands(groups, lineup.solved).into_iter().filter(|island| is_stack(island));
-    let found = |Island { places, touches }| {
-        let pairs = touches.into_iter().map(|(pair, _)| pair).collect();
-        Found { places, pairs }
+    let found = |Island { places, touches }: Island<'_>| {
+        let pairs = touches.iter().map(|(pair, _)| *pair).collect();
+        Found { places: places.to_vec(), pairs }
     };
-    stacks.map(found).collect()
+    let (places, touches) = islands(groups, lineup.solved);
+    let islands = places.iter().zip(touches.iter()).map(|(places, touches)| Island { places, touches });
+    islands.filter(|island| is_stack(island)).map(found).collect()
 }
 
-/// What touches something, in the order of the lowest places, but for islands of too many bodies.
-fn islands(groups: &Groups, solved: usize) -> Vec<Island> {
+/// What touches something, and where, by island in the order of the lowest places; but not islands of too many bodies.
+fn islands(groups: &Groups, solved: usize) -> (Grouped<u32>, Grouped<Touch>) {
     let mut sets = Sets::new(solved);
     let mut touches_any = vec![false; solved];
-    for Active { place_a, place_b, moves_a, moves_b, .. } in groups.active() {
-        for (place, moves) in [(place_a, moves_a), (place_b, moves_b)] {
-            if *moves {
-                touches_any[*place as usize] = true;
+    for active in groups.active() {
+        for (place, moves) in [(active.place_a, active.moves_a), (active.place_b, active.moves_b)] {
+            if moves {
+                touches_any[place as usize] = true;
             }
         }
-        if *moves_a && *moves_b {
-            sets.join(*place_a, *place_b);
+        if active.moves_a && active.moves_b {
+            sets.join(active.place_a, active.place_b);
         }
     }
-    let touching = || (0..solved as u32).filter(|&place| touches_any[place as usize]);
-    // By the lowest of its places, which is the root of the set.
+    // The root of a set is the lowest of its places.
+    let roots: Vec<usize> = (0..solved as u32).map(|place| sets.root(place) as usize).collect();
     let mut sizes = vec![0; solved];
-    touching().for_each(|place| sizes[sets.root(place) as usize] += 1);
-    let mut islands: Vec<Island> = Vec::new();
-    let mut numbers = vec![0; solved];
-    for place in touching() {
-        let root = sets.root(place);
-        if sizes[root as usize] > MOST_BODIES {
-            continue;
-        }
-        if root == place {
-            numbers[root as usize] = islands.len();
-            islands.push(Island::default());
-        }
-        islands[numbers[root as usize]].places.push(place);
+    let touching = (0..solved).filter(|&place| touches_any[place]);
+    touching.clone().for_each(|place| sizes[roots[place]] += 1);
+    let mut numbers = vec![usize::MAX; solved];
+    let mut count = 0;
+    for root in touching.clone().filter(|&place| roots[place] == place && sizes[place] <= MOST_BODIES) {
+        numbers[root] = count;
+        count += 1;
     }
-    if islands.is_empty() {
-        return islands;
-    }
-    for active in groups.active() {
+    let number = |place: usize| Some(numbers[roots[place]]).filter(|&number| number < count);
+    let places = touching.filter_map(|place| Some((number(place)?, place as u32)));
+    let touches = groups.active().filter(|_| count > 0).filter_map(|active| {
         let place = if active.moves_a { active.place_a } else { active.place_b };
-        let root = sets.root(place) as usize;
-        if sizes[root] <= MOST_BODIES {
-            islands[numbers[root]].touches.push((active.pair, [active.place_a, active.place_b]));
-        }
-    }
-    islands.iter_mut().for_each(|island| island.touches.sort_unstable());
-    islands
+        Some((number(place as usize)?, (active.pair, [active.place_a, active.place_b])))
+    });
+    let (places, mut touches) = (Grouped::new(count, places), Grouped::new(count, touches));
+    (0..count).for_each(|number| touches.of(number).sort_unstable());
+    (places, touches)
 }
 
 /// Whether loads go through many bodies, or from heavy to light ones, and something bears them.

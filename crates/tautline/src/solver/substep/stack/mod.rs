@@ -11,6 +11,7 @@
 
 mod contact;
 mod find;
+mod grouped;
 mod matrix;
 mod working_set;
 
