@@ -52,13 +52,15 @@ pub(crate) fn filter_map<T: Send, S: Default, R: Send>(
         out.extend(items.iter_mut().filter_map(|item| work(scratch, item)));
         return;
     }
-    let mut chunks: Vec<(&mut [T], Vec<R>)> =
-        items.chunks_mut(CHUNK).map(|chunk| (chunk, Vec::new())).collect();
-    for_each(&mut chunks, true, |(chunk, results)| {
+    let chunk = chunk_of(items.len());
+    let mut tasks: Vec<(&mut [T], Vec<R>)> =
+        items.chunks_mut(chunk).map(|items| (items, Vec::new())).collect();
+    for_each(&mut tasks, true, |(items, results)| {
         let mut scratch = S::default();
-        results.extend(chunk.iter_mut().filter_map(|item| work(&mut scratch, item)));
+        results.reserve_exact(items.len());
+        results.extend(items.iter_mut().filter_map(|item| work(&mut scratch, item)));
     });
-    out.extend(chunks.into_iter().flat_map(|(_, results)| results));
+    tasks.into_iter().for_each(|(_, mut results)| out.append(&mut results));
 }
 
 /// What `work` makes of every item, which it is told the number of, in order.
@@ -67,11 +69,22 @@ pub(crate) fn collect<T: Sync, R: Send>(
     worthwhile: bool,
     work: impl Fn(usize, &T) -> Option<R> + Send + Sync,
 ) -> Vec<R> {
-    let mut numbered: Vec<_> = (0..).zip(items).collect();
-    let mut results = Vec::new();
-    filter_map(&mut numbered, worthwhile, &mut (), &mut results, |(), (number, item)| work(*number, item));
-    results
+    let of = |first: usize, items: &[T]| -> Vec<R> {
+        (first..).zip(items).filter_map(|(number, item)| work(number, item)).collect()
+    };
+    if !worthwhile {
+        return of(0, items);
+    }
+    let chunk = chunk_of(items.len());
+    let mut tasks: Vec<_> =
+        (0..).step_by(chunk).zip(items.chunks(chunk)).map(|task| (task, Vec::new())).collect();
+    for_each(&mut tasks, true, |((first, items), results)| *results = of(*first, items));
+    tasks.into_iter().flat_map(|(_, results)| results).collect()
 }
 
-/// Items that a thread takes at a time: enough work to be worth fetching.
-const CHUNK: usize = 64;
+/// So many of all items a thread takes at a time: enough work to be worth fetching, and some pieces for each.
+fn chunk_of(count: usize) -> usize {
+    const LEAST: usize = 64;
+    const PIECES: usize = 8;
+    (count / (PIECES * threads())).max(LEAST)
+}

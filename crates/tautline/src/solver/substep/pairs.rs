@@ -93,26 +93,37 @@ impl Pairs {
     /// Makes the list of the bodies in `is_listed` anew from their ascending keys; all others stay.
     pub(super) fn replace_some(&mut self, is_listed: &[bool], keys: &[Key]) {
         let Self { pairs, details } = self;
-        let is_listed = |pair: &Pair| is_listed[pair.a as usize] || is_listed[pair.b as usize];
+        let worthwhile = parallel::is_worthwhile(pairs.len(), WORTHWHILE);
+        let listed = parallel::collect(pairs, worthwhile, |index, pair| {
+            (is_listed[pair.a as usize] || is_listed[pair.b as usize]).then_some(index)
+        });
         let mut is_old = vec![false; keys.len()];
-        let mut kept = 0;
-        for index in 0..pairs.len() {
-            if is_listed(&pairs[index]) {
-                match keys.binary_search(&pairs[index].key(&details[index])) {
-                    Ok(key) => is_old[key] = true,
-                    Err(_) => continue,
-                }
+        let mut gone = Vec::new();
+        for index in listed {
+            match keys.binary_search(&pairs[index].key(&details[index])) {
+                Ok(key) => is_old[key] = true,
+                Err(_) => gone.push(index),
             }
-            if kept < index {
-                pairs.swap(kept, index);
-                details.swap(kept, index);
-            }
-            kept += 1;
         }
-        pairs.truncate(kept);
-        details.truncate(kept);
+        self.remove(&gone);
         let new = keys.iter().zip(is_old).filter(|(_, is_old)| !is_old).map(|(key, _)| key);
         self.insert(new.collect());
+    }
+
+    /// Removes the pairs with these indices, which ascend.
+    fn remove(&mut self, gone: &[usize]) {
+        let (mut gone, count) = (gone.iter().copied().peekable(), self.pairs.len());
+        let Some(&first) = gone.peek() else { return };
+        let mut kept = first;
+        for index in first..count {
+            if gone.next_if_eq(&index).is_none() {
+                self.pairs.swap(kept, index);
+                self.details.swap(kept, index);
+                kept += 1;
+            }
+        }
+        self.pairs.truncate(kept);
+        self.details.truncate(kept);
     }
 
     /// Adds ascending keys that are not there yet.

@@ -110,12 +110,12 @@ impl RigidSolver {
     /// Cuts ways short until nothing meets on them. Returns who hardly moved for it.
     fn cut_short(&self, candidates: &[Candidate<'_>], ways: &mut Ways) -> Vec<Blocked> {
         let mut blocked = Vec::new();
-        // Most do not meet as long as neither way is cut.
-        let worthwhile = parallel::is_worthwhile(candidates.len(), WORTHWHILE);
-        let meets = parallel::collect(candidates, worthwhile, |_, candidate| {
-            let [a, b] = candidate.places.map(|place| ways[place].filter(Way::is_finite));
-            Some(a.zip(b).is_some_and(|(a, b)| candidate.first_touch(&a, &b).is_some()))
-        });
+        // Most do not meet, which can be told side by side as long as no way is cut; if not, that comes below.
+        let meets = if parallel::is_worthwhile(candidates.len(), WORTHWHILE) {
+            parallel::collect(candidates, true, |_, candidate| Some(would_meet(candidate, ways)))
+        } else {
+            vec![true; candidates.len()]
+        };
         for round in 0..ROUNDS {
             let mut has_met = false;
             for (candidate, meets) in candidates.iter().zip(&meets) {
@@ -203,5 +203,13 @@ impl RigidSolver {
         let Pairs { pairs, details } = &self.pairs;
         let worthwhile = parallel::is_worthwhile(pairs.len(), WORTHWHILE);
         parallel::collect(pairs, worthwhile, |number, pair| candidate((pair, &details[number])))
+    }
+}
+
+/// Whether two bodies would meet on their ways as they are.
+fn would_meet(candidate: &Candidate<'_>, ways: &Ways) -> bool {
+    match candidate.places.map(|place| ways[place].as_ref()) {
+        [Some(a), Some(b)] => a.is_finite() && b.is_finite() && candidate.first_touch(a, b).is_some(),
+        _ => false,
     }
 }

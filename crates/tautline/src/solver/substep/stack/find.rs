@@ -7,13 +7,13 @@
 
 use glam::Vec3;
 
+use super::super::batch::Active;
 use super::super::crew::{Crew, Timing};
 use super::super::group::Groups;
 use super::super::held::Held;
 use super::super::joint::Sets;
 use super::super::lineup::{Lineup, NOBODY};
 use super::super::pairs::Pairs;
-use super::grouped::Grouped;
 use crate::norm::Norm;
 
 /// The most bodies of a stack, and pairs of parts.
@@ -45,9 +45,10 @@ pub(in super::super) struct Found {
 type Touch = (u32, [u32; 2]);
 
 /// Bodies that touch one another, and where, both ascending.
-struct Island<'a> {
-    places: &'a [u32],
-    touches: &'a [Touch],
+#[derive(Debug, Clone, Default)]
+struct Island {
+    places: Vec<u32>,
+    touches: Vec<Touch>,
 }
 
 /// Finds all stacks, given what joints hold. Without gravity there are none: nothing leans.
@@ -61,9 +62,9 @@ pub(in super::super) fn find(
     }
     let quiet = QUIET * timing.h * timing.substeps;
     let mut left = MOST_IN_ALL;
-    let mut is_stack = |island: &Island<'_>| {
+    let mut is_stack = |island: &Island| {
         let Island { places, touches } = island;
-        let is_one = places.len() <= left
+        let is_one = places.len() <= MOST_BODIES.min(left)
             && touches.len() <= MOST_PAIRS
             && !places.iter().any(|&place| assembly_of[place as usize] != NOBODY)
             && fastest(touches, pairs, (crew, timing.substeps)) < quiet
@@ -71,49 +72,57 @@ pub(in super::super) fn find(
         left -= if is_one { places.len() } else { 0 };
         is_one
     };
-    let found = |Island { places, touches }: Island<'_>| {
-        let pairs = touches.iter().map(|(pair, _)| *pair).collect();
-        Found { places: places.to_vec(), pairs }
+    let stacks = islands(groups, lineup.solved).into_iter().filter(|island| is_stack(island));
+    let found = |Island { places, touches }| {
+        let pairs = touches.into_iter().map(|(pair, _)| pair).collect();
+        Found { places, pairs }
     };
-    let (places, touches) = islands(groups, lineup.solved);
-    let islands = places.iter().zip(touches.iter()).map(|(places, touches)| Island { places, touches });
-    islands.filter(|island| is_stack(island)).map(found).collect()
+    stacks.map(found).collect()
 }
 
-/// What touches something, and where, by island in the order of the lowest places; but not islands of too many bodies.
-fn islands(groups: &Groups, solved: usize) -> (Grouped<u32>, Grouped<Touch>) {
+/// What touches something, in the order of the lowest places, but for islands of too many bodies.
+fn islands(groups: &Groups, solved: usize) -> Vec<Island> {
     let mut sets = Sets::new(solved);
     let mut touches_any = vec![false; solved];
-    for active in groups.active() {
-        for (place, moves) in [(active.place_a, active.moves_a), (active.place_b, active.moves_b)] {
-            if moves {
-                touches_any[place as usize] = true;
+    for Active { place_a, place_b, moves_a, moves_b, .. } in groups.active() {
+        for (place, moves) in [(place_a, moves_a), (place_b, moves_b)] {
+            if *moves {
+                touches_any[*place as usize] = true;
             }
         }
-        if active.moves_a && active.moves_b {
-            sets.join(active.place_a, active.place_b);
+        if *moves_a && *moves_b {
+            sets.join(*place_a, *place_b);
         }
     }
-    // The root of a set is the lowest of its places.
-    let roots: Vec<usize> = (0..solved as u32).map(|place| sets.root(place) as usize).collect();
+    let touching = || (0..solved as u32).filter(|&place| touches_any[place as usize]);
+    // By the lowest of its places, which is the root of the set.
     let mut sizes = vec![0; solved];
-    let touching = (0..solved).filter(|&place| touches_any[place]);
-    touching.clone().for_each(|place| sizes[roots[place]] += 1);
-    let mut numbers = vec![usize::MAX; solved];
-    let mut count = 0;
-    for root in touching.clone().filter(|&place| roots[place] == place && sizes[place] <= MOST_BODIES) {
-        numbers[root] = count;
-        count += 1;
+    touching().for_each(|place| sizes[sets.root(place) as usize] += 1);
+    let mut islands: Vec<Island> = Vec::new();
+    let mut numbers = vec![0; solved];
+    for place in touching() {
+        let root = sets.root(place);
+        if sizes[root as usize] > MOST_BODIES {
+            continue;
+        }
+        if root == place {
+            numbers[root as usize] = islands.len();
+            islands.push(Island::default());
+        }
+        islands[numbers[root as usize]].places.push(place);
     }
-    let number = |place: usize| Some(numbers[roots[place]]).filter(|&number| number < count);
-    let places = touching.filter_map(|place| Some((number(place)?, place as u32)));
-    let touches = groups.active().filter(|_| count > 0).filter_map(|active| {
+    if islands.is_empty() {
+        return islands;
+    }
+    for active in groups.active() {
         let place = if active.moves_a { active.place_a } else { active.place_b };
-        Some((number(place as usize)?, (active.pair, [active.place_a, active.place_b])))
-    });
-    let (places, mut touches) = (Grouped::new(count, places), Grouped::new(count, touches));
-    (0..count).for_each(|number| touches.of(number).sort_unstable());
-    (places, touches)
+        let root = sets.root(place) as usize;
+        if sizes[root] <= MOST_BODIES {
+            islands[numbers[root]].touches.push((active.pair, [active.place_a, active.place_b]));
+        }
+    }
+    islands.iter_mut().for_each(|island| island.touches.sort_unstable());
+    islands
 }
 
 /// Whether loads go through many bodies, or from heavy to light ones, and something bears them.

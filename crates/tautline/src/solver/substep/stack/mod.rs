@@ -11,7 +11,6 @@
 
 mod contact;
 mod find;
-mod grouped;
 mod matrix;
 mod working_set;
 
