@@ -6,6 +6,7 @@ use glam::{DVec3, Vec3};
 use super::epa::Epa;
 use super::feature::{ContactFeatures, FeaturePoint};
 use super::gjk::{self, Gjk, MAX_ITERATIONS, Proximity};
+use super::rows::PointRows;
 use super::support::{Points, Support};
 use crate::Error;
 use crate::norm::Norm;
@@ -84,6 +85,9 @@ pub fn distance(a: &[Vec3], b: &[Vec3]) -> Result<Distance, Error> {
     }
 }
 
+/// So many points are worth being arranged in rows.
+const MANY: usize = 48;
+
 /// Points that have been checked, and a point amid them.
 struct Set<'a> {
     points: &'a [Vec3],
@@ -92,13 +96,25 @@ struct Set<'a> {
 
 impl<'a> Set<'a> {
     fn new(field: &str, points: &'a [Vec3]) -> Result<Self, Error> {
-        let middle = points.iter().sum::<Vec3>() / points.len() as f32;
+        let middle = sum(points) / points.len() as f32;
         // Of finite points the sum may be too large, of others it is never finite.
         if !middle.is_finite() {
             check(field, points)?;
         }
         Ok(Self { points, middle })
     }
+}
+
+/// Four sums at a time: an addition need not wait for the one before.
+fn sum(points: &[Vec3]) -> Vec3 {
+    let (fours, rest) = points.as_chunks::<4>();
+    let mut sums = [Vec3::ZERO; 4];
+    for four in fours {
+        for (sum, &point) in sums.iter_mut().zip(four) {
+            *sum += point;
+        }
+    }
+    sums.iter().chain(rest).sum()
 }
 
 fn check(field: &str, points: &[Vec3]) -> Result<(), Error> {
@@ -131,19 +147,27 @@ fn is_in_order(a: &[Vec3], b: &[Vec3]) -> bool {
 }
 
 fn ordered_distance(a: &Set, b: &Set) -> Distance {
-    let mut axis = b.middle - a.middle;
-    let (a, b) = (Points(a.points), Points(b.points));
-    let gjk = gjk::closest(&a, &b, &mut axis);
+    let axis = b.middle - a.middle;
+    if a.points.len().max(b.points.len()) < MANY {
+        distance_along(axis, &Points(a.points), &Points(b.points))
+    } else {
+        distance_along(axis, &PointRows::new(a.points), &PointRows::new(b.points))
+    }
+}
+
+/// The distance of what probably lies in this direction of each other.
+fn distance_along(mut axis: Vec3, a: &impl Support, b: &impl Support) -> Distance {
+    let gjk = gjk::closest(a, b, &mut axis);
     if gjk.proximity == Proximity::Intersecting {
         let budget = MAX_ITERATIONS - gjk.iterations;
-        let face = Epa::with_room().hit_face(&a, &b, &gjk.simplex, axis, budget);
+        let face = Epa::with_room().hit_face(a, b, &gjk.simplex, axis, budget);
         Distance::penetrating(
-            ContactFeatures::new(&a, &b, &face),
+            ContactFeatures::new(a, b, &face),
             gjk.iterations + face.iterations,
             face.converged,
         )
     } else {
-        Distance::separated(&a, &b, &gjk)
+        Distance::separated(a, b, &gjk)
     }
 }
 

@@ -155,6 +155,7 @@ impl Walk {
     }
 
     /// Takes the vertex in; false when the walk is over.
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn advance(&mut self, vertex: CsoVertex) -> bool {
         let before = self.simplex;
         self.simplex.push(vertex);

@@ -9,6 +9,7 @@ pub mod feature;
 pub mod gjk;
 pub(crate) mod manifold;
 pub(crate) mod query;
+mod rows;
 pub mod simplex;
 mod sphere;
 pub mod sphere_tree;

@@ -75,6 +75,7 @@ impl Simplex {
 
     /// Drops the vertices that the closest point to the origin does not need, and returns that point, or `None`
     /// if four vertices enclose the origin (all four are kept then).
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(crate) fn reduce(&mut self) -> Option<DVec3> {
         let [p, q, r, _] = self.vertices.map(|v| v.point);
         let weights = match self.count {
