@@ -1,5 +1,7 @@
 //! Random calls of a world.
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use tautline::{
@@ -12,6 +14,8 @@ use tautline::{
 const MOST_BODIES: usize = 6;
 const MOST_STEPS: u32 = 8;
 const SUBSTEPS: u32 = 2;
+/// Most shapes that are kept for inputs to come.
+const MOST_SHAPES: usize = 2_000;
 
 /// Calls of every kind with numbers of every kind. What is refused leaves no trace, and nothing ever panics or is not finite.
 pub(crate) fn run(bytes: &[u8]) {
@@ -21,16 +25,43 @@ pub(crate) fn run(bytes: &[u8]) {
         bodies: Vec::new(),
         steps: 0,
     };
+    // Of the world as it is, if that is known: a snapshot takes as long as a small step.
+    let mut snapshot = None;
     while !calls.bytes.is_empty() {
-        let before = calls.world.snapshot();
+        let before = snapshot.take().unwrap_or_else(|| calls.world.snapshot());
         if calls.next().is_err() {
             assert!(calls.world.snapshot() == before, "refused, but not without a trace");
+            snapshot = Some(before);
         }
     }
     let world = &calls.world;
     assert!(world.positions().iter().all(|position| position.is_finite()));
     let restored = World::restore(&world.snapshot()).expect("a snapshot is whole");
     assert_eq!(restored.state_hash(), world.state_hash());
+}
+
+/// A shape of one of four kinds. Those already built are kept, since that takes longer than a step.
+fn shape(kind: u8, size: f32, length: f32) -> Result<Arc<Shape>, Error> {
+    thread_local! {
+        static BUILT: RefCell<BTreeMap<(u8, u32, u32), Arc<Shape>>> = const { RefCell::new(BTreeMap::new()) };
+    }
+    let key = (kind, size.to_bits(), length.to_bits());
+    if let Some(shape) = BUILT.with_borrow(|built| built.get(&key).cloned()) {
+        return Ok(shape);
+    }
+    let shape = Arc::new(match kind {
+        0 => Shape::sphere(size)?,
+        1 => Shape::capsule(size, length)?,
+        2 => Shape::cylinder(size, length)?,
+        _ => Shape::cuboid(Vec3::new(size, length, 0.3))?,
+    });
+    BUILT.with_borrow_mut(|built| {
+        if built.len() == MOST_SHAPES {
+            built.clear();
+        }
+        built.insert(key, Arc::clone(&shape));
+    });
+    Ok(shape)
 }
 
 struct Calls<'a> {
@@ -124,13 +155,10 @@ impl Calls<'_> {
     }
 
     fn add_rigid(&mut self, position: Vec3, size: f32) -> Result<BodyHandle, Error> {
-        let shape = match self.byte() % 4 {
-            0 => Shape::sphere(size)?,
-            1 => Shape::capsule(size, self.number())?,
-            2 => Shape::cylinder(size, self.number())?,
-            _ => Shape::cuboid(Vec3::new(size, self.number(), 0.3))?,
-        };
-        let body = RigidBody::new(&Arc::new(shape)).position(position).rotation(self.rotation());
+        let kind = self.byte() % 4;
+        let length = if kind == 0 { 0.0 } else { self.number() };
+        let shape = shape(kind, size, length)?;
+        let body = RigidBody::new(&shape).position(position).rotation(self.rotation());
         let body = body.velocity(self.vector()).angular_velocity(self.vector()).mass(self.number());
         let is_fixed = self.byte().is_multiple_of(8);
         self.world.add(if is_fixed { body.fixed() } else { body })
