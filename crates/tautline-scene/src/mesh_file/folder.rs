@@ -30,6 +30,14 @@ pub(super) fn inside(folder: &Path, path: &str) -> Result<PathBuf, Error> {
 
 /// The bytes of a regular file of at most so many.
 pub(crate) fn read_limited(path: &Path, most: u64) -> Result<Vec<u8>, Error> {
+    let (file, length) = open_limited(path, most)?;
+    let mut bytes = Vec::with_capacity(length as usize);
+    file.take(most).read_to_end(&mut bytes).map_err(|source| Error::io(path, source))?;
+    Ok(bytes)
+}
+
+/// A regular file of at most so many bytes, and how many it has.
+pub(super) fn open_limited(path: &Path, most: u64) -> Result<(File, u64), Error> {
     let io = |source| Error::io(path, source);
     // Asked before it is opened: opening a pipe would wait for its writer.
     let metadata = std::fs::metadata(path).map_err(io)?;
@@ -40,7 +48,5 @@ pub(crate) fn read_limited(path: &Path, most: u64) -> Result<Vec<u8>, Error> {
         let message = format!("{} bytes are more than {most}", metadata.len());
         return Err(io(std::io::Error::new(std::io::ErrorKind::FileTooLarge, message)));
     }
-    let mut bytes = Vec::new();
-    File::open(path).and_then(|file| file.take(most).read_to_end(&mut bytes)).map_err(io)?;
-    Ok(bytes)
+    Ok((File::open(path).map_err(io)?, metadata.len()))
 }

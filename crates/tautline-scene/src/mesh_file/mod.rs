@@ -17,6 +17,7 @@ mod weld;
 mod words;
 mod write;
 
+use std::io::BufReader;
 use std::path::Path;
 
 use tautline::mesh::TriMesh;
@@ -85,9 +86,14 @@ impl MeshFile {
 pub fn read_mesh(path: &Path, limits: &Limits) -> Result<MeshFile, Error> {
     let unknown = || Error::UnsupportedFormat { path: path.to_owned(), supported: FORMATS };
     let format = Format::of(path).ok_or_else(unknown)?;
-    let bytes = read_limited(path, limits.file_bytes)?;
-    parse_beside(&bytes, format, limits, Some(folder::folder_of(path)))
-        .map_err(|refusal| Error::Mesh { path: path.to_owned(), refusal })
+    let read = if format == Format::Stl {
+        let (file, length) = folder::open_limited(path, limits.file_bytes)?;
+        stl::read(BufReader::new(file), length, limits)
+    } else {
+        let bytes = read_limited(path, limits.file_bytes)?;
+        parse_beside(&bytes, format, limits, Some(folder::folder_of(path)))
+    };
+    read.map_err(|refusal| Error::Mesh { path: path.to_owned(), refusal })
 }
 
 /// Reads the mesh file at a path that a scene gives, which must lie in the scene's folder.

@@ -1,5 +1,7 @@
 //! STL, text and binary. Its triangles share nothing: corners at the same place become one vertex.
 
+use std::io::{self, Read};
+
 use tautline::Vec3;
 use tautline::mesh::TriMesh;
 
@@ -17,17 +19,41 @@ const LEAST_TEXT: usize = 76;
 /// Reads the bytes of a file. The normals are passed over: the order of the corners says the same.
 pub(super) fn parse(bytes: &[u8], limits: &Limits) -> Result<MeshFile, Refusal> {
     // Some binary files begin with `solid` too, so their length decides.
-    let corners = if binary_length(bytes) == Some(bytes.len()) {
-        limits.check_triangles((bytes.len() - HEADER) / FACET)?;
-        read_binary(&bytes[HEADER..])?
-    } else if bytes.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) {
-        read_text(&String::from_utf8_lossy(bytes), limits)?
+    if binary_length(bytes) == Some(bytes.len() as u64) {
+        welded(read_binary(&bytes[HEADER..], bytes.len() as u64, limits)?)
     } else {
-        return Err(Refusal::new(match binary_length(bytes) {
-            Some(length) => format!("it announces {length} bytes of binary STL and has {}", bytes.len()),
-            None => "it is neither text that begins with `solid` nor long enough for binary STL".to_owned(),
-        }));
-    };
+        parse_text(bytes, limits)
+    }
+}
+
+/// Reads a file of so many bytes. Those of a binary one go by, and need no memory.
+pub(super) fn read(mut file: impl Read, length: u64, limits: &Limits) -> Result<MeshFile, Refusal> {
+    let mut bytes = Vec::new();
+    file.by_ref().take(HEADER as u64).read_to_end(&mut bytes).map_err(unreadable)?;
+    if binary_length(&bytes) == Some(length) {
+        welded(read_binary(file, length, limits)?)
+    } else {
+        bytes.reserve_exact((length as usize).saturating_sub(bytes.len()));
+        file.take(limits.file_bytes).read_to_end(&mut bytes).map_err(unreadable)?;
+        parse_text(&bytes, limits)
+    }
+}
+
+fn unreadable(error: io::Error) -> Refusal {
+    Refusal::new(format!("it cannot be read to its end: {error}"))
+}
+
+fn parse_text(bytes: &[u8], limits: &Limits) -> Result<MeshFile, Refusal> {
+    if bytes.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) {
+        return welded(read_text(&String::from_utf8_lossy(bytes), limits)?);
+    }
+    Err(Refusal::new(match binary_length(bytes) {
+        Some(length) => format!("it announces {length} bytes of binary STL and has {}", bytes.len()),
+        None => "it is neither text that begins with `solid` nor long enough for binary STL".to_owned(),
+    }))
+}
+
+fn welded(corners: Vec<Vec3>) -> Result<MeshFile, Refusal> {
     if corners.is_empty() {
         return Err(Refusal::new("it has no triangles"));
     }
@@ -37,14 +63,19 @@ pub(super) fn parse(bytes: &[u8], limits: &Limits) -> Result<MeshFile, Refusal> 
 }
 
 /// How long a binary file with this header is.
-fn binary_length(bytes: &[u8]) -> Option<usize> {
+fn binary_length(bytes: &[u8]) -> Option<u64> {
     let count = bytes.get(HEADER - 4..HEADER)?.first_chunk::<4>()?;
-    (u32::from_le_bytes(*count) as usize).checked_mul(FACET)?.checked_add(HEADER)
+    Some(HEADER as u64 + u64::from(u32::from_le_bytes(*count)) * FACET as u64)
 }
 
-fn read_binary(facets: &[u8]) -> Result<Vec<Vec3>, Refusal> {
-    let mut corners = Vec::with_capacity(facets.len() / FACET * 3);
-    for (i, facet) in facets.chunks_exact(FACET).enumerate() {
+/// The corners of what follows the header of a file of so many bytes.
+fn read_binary(mut facets: impl Read, length: u64, limits: &Limits) -> Result<Vec<Vec3>, Refusal> {
+    let count = (length as usize - HEADER) / FACET;
+    limits.check_triangles(count)?;
+    let mut corners = Vec::with_capacity(count * 3);
+    for i in 0..count {
+        let mut facet = [0; FACET];
+        facets.read_exact(&mut facet).map_err(unreadable)?;
         let mut numbers = [0.0; 12];
         for (number, bytes) in numbers.iter_mut().zip(facet.as_chunks::<4>().0) {
             *number = f32::from_le_bytes(*bytes);
