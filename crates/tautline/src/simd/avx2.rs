@@ -139,6 +139,43 @@ impl Lanes for Avx2 {
         ]);
         [Self(p), Self(q), Self(r), Self(s), Self(t), Self(u), Self(v), Self(w)]
     }
+    #[inline(always)]
+    fn scatter([a, b, c, d, e, f, g, h]: [Self; LANES], rows: &mut [Row], index: &[u32; LANES]) {
+        // As in `gather`, each half of a row by itself.
+        let first = transpose_quarters([a.0, b.0, c.0, d.0]);
+        let last = transpose_quarters([e.0, f.0, g.0, h.0]);
+        for i in 0..LANES / 2 {
+            store_halves(low_half(first[i]), low_half(last[i]), &mut rows[index[i] as usize]);
+        }
+        for i in 0..LANES / 2 {
+            let row = &mut rows[index[LANES / 2 + i] as usize];
+            store_halves(high_half(first[i]), high_half(last[i]), row);
+        }
+    }
+}
+
+/// The first four of eight numbers.
+#[inline(always)]
+fn low_half(numbers: __m256) -> __m128 {
+    // SAFETY: see the module's documentation.
+    unsafe { _mm256_castps256_ps128(numbers) }
+}
+
+/// The last four of eight numbers.
+#[inline(always)]
+fn high_half(numbers: __m256) -> __m128 {
+    // SAFETY: see the module's documentation.
+    unsafe { _mm256_extractf128_ps::<1>(numbers) }
+}
+
+#[inline(always)]
+fn store_halves(first: __m128, last: __m128, row: &mut Row) {
+    let (head, tail) = row.0.split_at_mut(LANES / 2);
+    // SAFETY: see the module's documentation; a row is aligned to 32 bytes, its half to 16.
+    unsafe {
+        _mm_store_ps(head.as_mut_ptr(), first);
+        _mm_store_ps(tail.as_mut_ptr(), last);
+    }
 }
 
 /// The lower halves of two.

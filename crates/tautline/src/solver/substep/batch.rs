@@ -47,6 +47,8 @@ pub(super) struct Batch {
     pub(super) counts: [u8; LANES],
     /// Bits of the lanes whose pairs belong to stacks.
     pub(super) stacked: u32,
+    /// Whether the next batch moves none of the same bodies.
+    pub(super) has_twin: bool,
 }
 
 impl Batch {
@@ -239,11 +241,15 @@ fn share_out(classes: &mut [Slots], (empty, ground): ([u32; LANES], [u32; LANES]
                 points,
                 counts: [0; LANES],
                 stacked: 0,
+                has_twin: true,
             });
         }
         if own % WIDTH > 0 {
             (free, free_lane) = (WIDTH - own % WIDTH, class.lane + own);
         }
+    }
+    if let Some(last) = batches.last_mut() {
+        last.has_twin = false;
     }
 }
 

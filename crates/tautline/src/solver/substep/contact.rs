@@ -100,7 +100,8 @@ impl<L: Lanes> Body<L> {
     }
 }
 
-/// Visits every batch once, in order.
+/// Visits every batch once, in order; two at a time where they move no body in common, so that the processor has
+/// something to do while one point waits for the one before.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(super) fn pass<L: Lanes>(
     pass: Pass,
@@ -110,11 +111,33 @@ pub(super) fn pass<L: Lanes>(
     points: &mut [PointRows],
     velocities: &mut [Row],
 ) {
-    for (batch, header) in batches.iter().zip(headers) {
+    let mut number = 0;
+    while let (Some(batch), Some(header)) = (batches.get(number), headers.get(number)) {
+        number += 1;
         let mut a = Body::<L>::gather(velocities, &batch.a);
         let mut b = Body::<L>::gather(velocities, &batch.b);
-        for point in &mut points[batch.range()] {
-            solve(pass, softness, header, point, &mut a, &mut b);
+        if batch.has_twin
+            && let (Some(twin), Some(twin_header)) = (batches.get(number), headers.get(number))
+        {
+            number += 1;
+            let mut twin_a = Body::<L>::gather(velocities, &twin.a);
+            let mut twin_b = Body::<L>::gather(velocities, &twin.b);
+            let (own, twins) =
+                points[batch.range().start..twin.range().end].split_at_mut(batch.range().len());
+            for k in 0..own.len().max(twins.len()) {
+                if let Some(point) = own.get_mut(k) {
+                    solve(pass, softness, header, point, &mut a, &mut b);
+                }
+                if let Some(point) = twins.get_mut(k) {
+                    solve(pass, softness, twin_header, point, &mut twin_a, &mut twin_b);
+                }
+            }
+            twin_a.scatter(velocities, &twin.a);
+            twin_b.scatter(velocities, &twin.b);
+        } else {
+            for point in &mut points[batch.range()] {
+                solve(pass, softness, header, point, &mut a, &mut b);
+            }
         }
         a.scatter(velocities, &batch.a);
         b.scatter(velocities, &batch.b);
