@@ -15,6 +15,7 @@ mod grid;
 mod hinge;
 mod hot;
 mod meet;
+mod pair;
 mod patch;
 mod piece;
 mod points;

@@ -8,7 +8,7 @@ use super::elastic::Stiffen;
 use super::gas;
 use super::hinge;
 use super::hot::Contacts;
-use super::meet::{Parting, part_pair};
+use super::pair::{Parting, part_pair};
 use super::piece::{Layout, Piece};
 use super::points::{Points, SmallStep};
 use super::sheet::Sheet;

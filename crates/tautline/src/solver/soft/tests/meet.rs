@@ -1,5 +1,7 @@
 use std::collections::BTreeSet;
 
+use glam::Vec3;
+
 use super::*;
 use crate::simd::Kernel;
 use crate::solver::soft::grid::Grid;
