@@ -80,7 +80,8 @@ fn four_points_of_a_cloth_carry_a_box() {
             let at = Vec3::new((column as f32 - 10.0) * 0.1, 0.3, (row as f32 - 10.0) * 0.1);
             world.attach(Anchor::particle(cloth, row * n + column), Anchor::point(load, at), STIFF()).unwrap()
         });
-        run(&mut world, 8.0);
+        // Nothing but the cloth takes energy from what swings on it.
+        run(&mut world, 20.0);
         assert!(stretch(&world, cloth) < 0.03, "{}", stretch(&world, cloth));
         assert!(hooks.iter().all(|&hook| gap(&world, hook) < 1e-4));
         assert!(speed(&world, load) < 0.02, "{mass} kg move at {} m/s", speed(&world, load));
@@ -147,9 +148,7 @@ fn what_holds_too_much_breaks() {
 /// eight starts, a little different.
 #[test]
 fn a_closed_chain_keeps_momentum_and_gains_no_energy() {
-    const STARTS: u8 = 8;
-    let mut turned = 0.0;
-    for start in 0..STARTS {
+    for start in 0..8_u8 {
         let mut world = closed_chain(1e-3 * f32::from(start));
         let (linear, angular) = (world.momentum(), world.angular_momentum());
         let first = world.kinetic_energy();
@@ -163,13 +162,10 @@ fn a_closed_chain_keeps_momentum_and_gains_no_energy() {
                 "start {start}: energy grew from {energy}"
             );
             energy = world.kinetic_energy();
+            let off = (world.angular_momentum() - angular).length() / angular.length();
+            assert!(off < 3e-5, "start {start}: angular momentum is off by {off}");
         }
-        turned += (world.angular_momentum() - angular).length() / angular.length();
     }
-    // What takes it is where a crumpled cloth presses on itself: what is too close is moved apart without velocity, and
-    // friction acts a thickness apart.
-    let mean = turned / f64::from(STARTS);
-    assert!(mean < 0.05, "angular momentum is off by {mean}");
 }
 
 /// The ball is `more` m/s faster.

@@ -4,9 +4,11 @@ use tautline::{BodyHandle, Cloth, Rope, Shape, Vec3, World};
 
 use super::{DT, solid, weightless};
 
-/// How far momentum was off, as a share of the ball's; and by what share energy has grown, at most.
+/// How far momentum was off, as a share of the ball's, or angular momentum, as a share of all; and by what share energy has
+/// grown, at most.
 fn drift(world: &mut World, ball: BodyHandle, seconds: f32) -> (f64, f64) {
     let (momentum, mut energy) = (world.momentum(), world.kinetic_energy());
+    let turn = world.angular_momentum();
     let scale = f64::from(world.body(ball).unwrap().mass() * world.body(ball).unwrap().velocity().length());
     let first = energy;
     let (mut off, mut growth) = (0.0_f64, 0.0_f64);
@@ -16,6 +18,8 @@ fn drift(world: &mut World, ball: BodyHandle, seconds: f32) -> (f64, f64) {
         growth = growth.max((world.kinetic_energy() - energy) / first);
         energy = energy.min(world.kinetic_energy());
     }
+    let turned = (world.angular_momentum() - turn).length() / turn.length();
+    assert!(turned < 5e-5, "angular momentum is off by {turned}");
     (off, growth)
 }
 
@@ -32,6 +36,20 @@ fn a_cloth_and_a_ball_that_collide_keep_momentum() {
     let (off, _) = drift(&mut world, ball, 3.0);
     let speed = world.body(cloth).unwrap().velocity().length();
     assert!(speed > 0.5, "they hardly met: the cloth moves at {speed} m/s");
+    assert!(off < 1e-5, "momentum is off by {off}");
+}
+
+/// Its inertia is not the same about all axes, and turns with it.
+#[test]
+fn a_cloth_and_a_box_that_collide_keep_momentum() {
+    let mut world = World::new(weightless()).unwrap();
+    world.add(Cloth::grid(16, 16, 1.0, 1.0)).unwrap();
+    let load = solid(Shape::cuboid(Vec3::new(0.1, 0.15, 0.2)).unwrap())
+        .mass(0.5)
+        .position(Vec3::new(0.2, 0.4, 0.05));
+    let load = load.velocity(Vec3::Y * -3.0).angular_velocity(Vec3::new(0.0, 6.0, 3.0));
+    let load = world.add(load).unwrap();
+    let (off, _) = drift(&mut world, load, 3.0);
     assert!(off < 1e-5, "momentum is off by {off}");
 }
 

@@ -50,6 +50,24 @@ fn gas_moves_no_free_balloon() {
     assert!(center(&world, balloon).distance(start + velocity * 3.0) < 1e-3);
 }
 
+/// Gas pushes from where the particles were when the small step began: from where they are at its end it would turn what
+/// spins ever faster.
+#[test]
+fn a_balloon_that_spins_keeps_angular_momentum_and_energy() {
+    let mut world = World::new(weightless()).unwrap();
+    let balloon = world.add(Cloth::from_mesh(ball(0.3)).pressure(400.0)).unwrap();
+    run(&mut world, 2.0);
+    for (particle, at) in (0..).zip(world.body(balloon).unwrap().positions().to_vec()) {
+        world.set_particle_velocity(balloon, particle, Vec3::new(1.0, 3.0, 0.5).cross(at)).unwrap();
+    }
+    let (turn, energy) = (world.angular_momentum(), world.kinetic_energy());
+    run(&mut world, 5.0);
+    let off = (world.angular_momentum() - turn).length() / turn.length();
+    assert!(off < 2e-5, "angular momentum is off by {off}");
+    let gain = world.kinetic_energy() / energy - 1.0;
+    assert!(gain.abs() < 1e-3, "energy has changed by {gain}");
+}
+
 /// A box on a ball: without gas it would lie on the floor.
 #[test]
 fn a_balloon_carries_a_box() {

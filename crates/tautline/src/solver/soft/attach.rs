@@ -163,7 +163,8 @@ impl Ties {
         self.loads.clear();
         for (tie, stiff) in self.ties.iter().enumerate().filter(|(_, tie)| tie.compliance == 0.0) {
             let Some([particles, carried]) = stiff.carried() else { continue };
-            let meeting = particles.at(points, solids, left).0;
+            let (at, motion) = particles.at(points, solids, left);
+            let meeting = at - motion;
             let mobility = carried.most_mobility(meeting, solids, left) * stiff.company;
             for (place, weight) in particles.held() {
                 let inverse_mass = points.inverse_mass[place];
@@ -197,7 +198,7 @@ impl Ties {
             let tie = &mut self.ties[load.tie];
             let Some([_, carried]) = tie.carried() else { continue };
             let impulse = (points.motion(load.place) - load.displacement) * load.mass;
-            carried.push(points, solids, impulse, points.at(load.place), left);
+            carried.push(points, solids, impulse, points.begun_at(load.place), left);
             // What is carried is the first end or the second.
             let is_first = !matches!(tie.ends[0], Hold::Places { .. });
             tie.total += if is_first { impulse } else { -impulse };
@@ -247,8 +248,9 @@ impl Tie {
         let [a, b] = self.ends;
         let ((at_a, motion_a), (at_b, motion_b)) =
             (a.at(points, solids, moment.left), b.at(points, solids, moment.left));
-        // Both are pushed at one point, so that angular momentum is kept although they are apart.
-        let meeting = if let Hold::Places { .. } = a { at_a } else { at_b };
+        // Both are pushed at one point, where one was when the small step began, so that angular momentum is kept although
+        // they are apart.
+        let meeting = if let Hold::Places { .. } = a { at_a - motion_a } else { at_b - motion_b };
         let softness = self.compliance / (moment.small * moment.small);
         let mobility = a.mobility(points, meeting, solids, moment.left)
             + b.mobility(points, meeting, solids, moment.left);
@@ -329,7 +331,7 @@ impl Hold {
             }
             Self::Solid { number, .. } => {
                 let solid = &solids[number];
-                let arm = meeting - solid.stance(left).center;
+                let arm = meeting - solid.begun_at(left);
                 let moved = |axis: Vec3| {
                     axis * solid.inverse_mass + (solid.inverse_inertia * arm.cross(axis)).cross(arm)
                 };
@@ -343,7 +345,7 @@ impl Hold {
     fn most_mobility(self, meeting: Vec3, solids: &[Solid<'_>], left: f32) -> f32 {
         let Self::Solid { number, .. } = self else { return 0.0 };
         let solid = &solids[number];
-        let arm = meeting - solid.stance(left).center;
+        let arm = meeting - solid.begun_at(left);
         let turned = |axis: Vec3| {
             let turned = arm.cross(axis);
             turned.dot(solid.inverse_inertia * turned)
@@ -361,7 +363,7 @@ impl Hold {
             }
             Self::Solid { number, .. } => {
                 let solid = &mut solids[number];
-                let arm = meeting - solid.stance(left).center;
+                let arm = meeting - solid.begun_at(left);
                 solid.push(impulse, arm);
             }
             Self::Still(_) => {}

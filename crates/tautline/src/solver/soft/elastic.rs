@@ -10,12 +10,13 @@
 
 use std::ops::Range;
 
-use glam::{DMat3, DVec3, Vec3};
+use glam::{DVec3, Vec3};
 
 use super::SoftSolver;
 use super::batch::without_sharing;
 use super::piece::Layout;
 use super::points::Points;
+use super::spin::Spin;
 use crate::body::{Flesh, Material, RestShape};
 use crate::simd::{Kernel, LANES, Lanes, Row, Vec3x8, column};
 
@@ -79,53 +80,12 @@ impl Elastic {
     }
 }
 
-/// How the particles of a piece turn about their centre of mass in a small step.
-struct Spin {
-    /// In m.
-    center: DVec3,
-    /// Σ m (x − c) × d, in kg m².
-    momentum: DVec3,
-    /// In kg m².
-    inertia: DMat3,
-}
-
-impl Spin {
-    fn of(points: &Points, places: Range<usize>) -> Self {
-        let is_there = |place: &usize| points.inverse_mass[*place] > 0.0;
-        let particle = |place: usize| {
-            let mass = 1.0 / f64::from(points.inverse_mass[place]);
-            (mass, points.at(place).as_dvec3(), points.motion(place).as_dvec3())
-        };
-        let particles: Vec<(f64, DVec3, DVec3)> = places.filter(is_there).map(particle).collect();
-        let total: f64 = particles.iter().map(|(mass, ..)| mass).sum();
-        let center = particles.iter().map(|(mass, x, _)| *x * *mass).sum::<DVec3>() / total;
-        let (mut momentum, mut inertia) = (DVec3::ZERO, DMat3::ZERO);
-        for (mass, x, d) in particles {
-            let arm = x - center;
-            momentum += arm.cross(d) * mass;
-            let outer = DMat3::from_cols(arm * arm.x, arm * arm.y, arm * arm.z);
-            inertia += (DMat3::from_diagonal(DVec3::splat(arm.length_squared())) - outer) * mass;
-        }
-        Self { center, momentum, inertia }
-    }
-}
-
 /// Relaxing in the middle of a motion brakes rotation: what is pulled inwards moves while it is (m d × Δ for each impulse
 /// m Δ). The solid gets back what it had, as a turn of the whole.
-fn keep_spin(points: &mut Points, places: Range<usize>, before: DVec3) {
-    let Spin { center, momentum, inertia } = Spin::of(points, places.clone());
-    if inertia.determinant() < f64::MIN_POSITIVE {
-        return;
-    }
-    let turn = inertia.inverse() * (before - momentum);
-    for place in places {
-        if points.inverse_mass[place] == 0.0 {
-            continue;
-        }
-        let more = turn.cross(points.at(place).as_dvec3() - center).as_vec3();
-        let motion = points.motion(place) + more;
-        points.set_motion(place, motion);
-    }
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+fn keep_spin<L: Lanes>(points: &mut Points, places: Range<usize>, before: DVec3) {
+    let spin = Spin::of(points, places.clone());
+    spin.give::<L>(points, places, before - spin.momentum);
 }
 
 /// Relaxes all soft solids, in a small step (s).
@@ -142,7 +102,7 @@ impl Kernel for Stiffen<'_> {
                 let before = (!piece.is_held()).then(|| Spin::of(points, piece.places.clone()).momentum);
                 elastic.relax::<L>(points, h);
                 if let Some(before) = before {
-                    keep_spin(points, piece.places.clone(), before);
+                    keep_spin::<L>(points, piece.places.clone(), before);
                 }
             }
         }

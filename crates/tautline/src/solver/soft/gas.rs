@@ -3,7 +3,8 @@
 //! The gas pushes every particle along ∇V by p h². What counts is the pressure after the push, for which
 //! V' = V + G h² c/V' with G = Σ w |∇V|² and c = p V is a quadratic equation: implicit, so stable however light
 //! the cloth and however hard the gas; where it is soft, the plain force. ∇V of a particle is a third of the area vectors
-//! around it, whose sum over a closed surface is 0, as is that of their moments.
+//! around it, whose sum over a closed surface is 0, as is that of their moments: where the small step began, which is where
+//! impulses turn what they push.
 
 use std::ops::Range;
 
@@ -64,12 +65,14 @@ impl Balloon {
         let origin = points.at(self.places.start);
         let mut six_fold = 0.0;
         for triangle in &self.triangles {
-            let [a, b, c] = triangle.map(|place| points.at(place as usize) - origin);
-            let doubled = (b - a).cross(c - a);
-            for place in triangle {
-                self.gradients[*place as usize - self.places.start] += doubled / 6.0;
+            let places = triangle.map(|place| place as usize);
+            let [a, b, c] = places.map(|place| points.begun_at(place));
+            let pushed = (b - a).cross(c - a) / 6.0;
+            for place in places {
+                self.gradients[place - self.places.start] += pushed;
             }
-            let [a, doubled]: [DVec3; 2] = [a, doubled].map(Vec3::as_dvec3);
+            let [a, b, c] = places.map(|place| points.at(place) - origin);
+            let [a, doubled]: [DVec3; 2] = [a, (b - a).cross(c - a)].map(Vec3::as_dvec3);
             six_fold += a.dot(doubled);
         }
         six_fold / 6.0

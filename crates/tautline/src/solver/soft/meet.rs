@@ -8,13 +8,15 @@
 //! what happens, and not when lists were made.
 
 use super::grid::Grid;
+use super::pair::{Parting, part_pair};
 use super::patch::{Cone, cone_of};
 use super::points::{Coordinates, Points, get, set};
+use super::spin::Couples;
 use super::tile::{Around, Bounds, MOST_EIGHTS, Tile, inside};
 use crate::constraint::Stick;
 use crate::norm::Norm;
 use crate::simd::{LANES, Lanes, Vec3x8};
-use glam::Vec3;
+use glam::DVec3;
 
 /// Tiles that bend less than this (75°) together do not touch each other. Its cosine.
 const SMOOTH: f32 = 0.258_819_05;
@@ -31,6 +33,8 @@ const HASTE: f32 = 1.5;
 /// A cloth among others.
 #[derive(Debug, Clone)]
 pub(super) struct Member {
+    /// The piece's number.
+    pub(super) piece: u32,
     pub(super) meets_itself: bool,
     /// How far its particles are kept apart, in m.
     pub(super) distance: f32,
@@ -113,6 +117,8 @@ struct Eight<L> {
 #[derive(Debug, Clone, Default)]
 struct List {
     tiles: [u32; 2],
+    /// The number of their pieces among the couples, if they have pairs that are near.
+    couple: u32,
     /// How far they have moved against each other since it was made, in m.
     moved: f32,
     distance: f32,
@@ -136,17 +142,10 @@ impl Meetings {
     }
 
     /// Adds a cloth.
-    pub(super) fn add(
-        &mut self,
-        tiles: &[Tile],
-        meets_itself: bool,
-        distance: f32,
-        exempt: Exempt,
-        friction: f32,
-    ) {
+    pub(super) fn add(&mut self, tiles: &[Tile], member: Member) {
         self.tiles.extend_from_slice(tiles);
         self.member_of.resize(self.tiles.len(), self.members.len() as u32);
-        self.members.push(Member { meets_itself, distance, exempt, friction });
+        self.members.push(member);
         self.boxes.resize(self.tiles.len(), Bounds::EMPTY);
         let eights = self.tiles.len().next_multiple_of(LANES);
         self.lows.iter_mut().for_each(|sides| sides.resize(eights, f32::INFINITY));
@@ -200,7 +199,7 @@ impl Meetings {
 
     /// Brings all lists up to date. Tiles have been. `ahead` is how long it is until the next look, in times since the last.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-    pub(super) fn look<L: Lanes>(&mut self, points: &Points, ahead: f32) {
+    pub(super) fn look<L: Lanes>(&mut self, points: &Points, ahead: f32, couples: &mut Couples) {
         let mut old = std::mem::take(&mut self.lists).into_iter().peekable();
         let mut lists = Vec::new();
         let farthest = self.members.iter().map(|member| member.distance).fold(0.0, f32::max);
@@ -226,6 +225,10 @@ impl Meetings {
                     self.list_pairs::<L>(points, &mut list);
                 }
                 list.keep_near(&self.base, distance * (1.0 + PUSH) + soon);
+                if !list.near.is_empty() {
+                    let piece_of = |tile: usize| self.members[self.member_of[tile] as usize].piece;
+                    list.couple = couples.number([a, b].map(piece_of));
+                }
                 lists.push(list);
             }
         }
@@ -298,7 +301,13 @@ impl Meetings {
                 let place = first as usize + lanes.trailing_zeros() as usize;
                 lanes &= lanes - 1;
                 let at = Vec3x8::splat(get(&self.base, place));
-                for other in &others[..count] {
+                // Within a tile every pair is listed once, with the lower place first.
+                let behind = if a == b {
+                    others[..count].partition_point(|other| other.place + LANES <= place)
+                } else {
+                    0
+                };
+                for other in &others[behind..count] {
                     // Where there is no particle is near none.
                     let is_near = reach_squared.greater((other.at - at).length_squared());
                     if is_near.bits() != 0 {
@@ -352,12 +361,21 @@ impl Meetings {
     }
 
     /// Moves all pairs apart that are too close, with friction; what was too close before by `recovery` (m) at most.
-    pub(super) fn part(&self, points: &mut Points, recovery: f32) {
+    pub(super) fn part(&self, points: &mut Points, recovery: f32, couples: &mut Couples) {
         for list in &self.lists {
-            let most = recovery.max(HURRY * list.distance);
-            for &[a, b] in &list.near {
-                part_pair(points, [a as usize, b as usize], (list.distance, most), list.friction);
+            if list.near.is_empty() {
+                continue;
             }
+            let &List { distance, friction, couple, .. } = list;
+            let most = recovery.max(HURRY * distance);
+            let parting = Parting { distance, most, friction, turn: couples.turn(couple) };
+            let mut moment = DVec3::ZERO;
+            for &[a, b] in &list.near {
+                if let Some(added) = part_pair(points, [a as usize, b as usize], parting) {
+                    moment += added.as_dvec3();
+                }
+            }
+            couples.add(couple, moment);
         }
     }
 }
@@ -380,38 +398,6 @@ impl List {
 #[inline(always)]
 fn apart<L: Lanes>(high: Vec3x8<L>, low: Vec3x8<L>) -> u32 {
     low.x.greater(high.x).bits() | low.y.greater(high.y).bits() | low.z.greater(high.z).bits()
-}
-
-/// Moves a pair to its distance (m), with friction; what was too close before by `most` (m) at most.
-#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-pub(super) fn part_pair(
-    points: &mut Points,
-    [a, b]: [usize; 2],
-    (distance, most): (f32, f32),
-    friction: f32,
-) {
-    let between = points.at(b) - points.at(a);
-    let squared = between.length_squared();
-    let masses = [points.inverse_mass[a], points.inverse_mass[b]];
-    let free = masses[0] + masses[1];
-    if squared >= distance * distance || free == 0.0 {
-        return;
-    }
-    let length = squared.sqrt();
-    let slip = points.motion(b) - points.motion(a);
-    // What is in one place parts along some direction, the same for all.
-    let normal = if length > 1e-8 { between / length } else { Vec3::Y };
-    let along = slip.dot(normal);
-    let across = slip - normal * along;
-    let depth = distance - length;
-    let braked = depth.min((-along).max(0.0));
-    // What is deeper than it moved in is moved out without velocity.
-    let apart = (normal * braked - across * friction) / free;
-    let out = normal * ((depth - braked).min(most) / free);
-    points.shift(a, -(apart * masses[0]));
-    points.shift(b, apart * masses[1]);
-    points.carry(a, -(out * masses[0]));
-    points.carry(b, out * masses[1]);
 }
 
 /// Where every place of a sheet is in the material, in m.

@@ -15,6 +15,7 @@ mod grid;
 mod hinge;
 mod hot;
 mod meet;
+mod pair;
 mod patch;
 mod piece;
 mod points;
@@ -25,6 +26,7 @@ mod seam;
 mod sheet;
 mod small_step;
 mod solid;
+mod spin;
 mod stick;
 mod strand;
 mod tether;
@@ -44,13 +46,14 @@ use crate::simd::LANES;
 use crate::solver::substep::RigidSolver;
 
 use attach::Ties;
-use meet::Meetings;
+use meet::{Meetings, Member};
 use piece::{Layout, Piece, span_of};
 use points::{Points, set};
 use rest::Rest;
 use ropes::{Bundle, Rope};
 use small_step::Timing;
 use solid::Solid;
+use spin::Couples;
 use stick::Span;
 use strand::{Segment, Strands};
 use touch::Touch;
@@ -75,6 +78,7 @@ pub(crate) struct SoftSolver {
     strands: Strands,
     touches: Vec<Touch>,
     ties: Ties,
+    couples: Couples,
     /// Inverse masses as sweeps take them.
     lightened: Vec<f32>,
     /// Held particles that are led along: their places, and their motion in a small step (m).
@@ -198,7 +202,8 @@ impl SoftSolver {
                 let distance = 2.0 * piece.thickness;
                 let exempt = piece.exempt(deformable, distance, &mut self.meetings.material);
                 let meets_itself = deformable.neighbours.is_some();
-                self.meetings.add(&piece.tiles, meets_itself, distance, exempt, CLING);
+                let member = Member { piece: number as u32, meets_itself, distance, exempt, friction: CLING };
+                self.meetings.add(&piece.tiles, member);
                 piece.longest_motion = distance;
             }
         }
@@ -291,29 +296,24 @@ impl SoftSolver {
         h: f32,
     ) -> Vec<(usize, u32)> {
         let small = h / self.small_steps(h);
-        let mut lost = Vec::new();
+        let (mut lost, mut moved) = (Vec::new(), Vec::new());
         for piece in &self.pieces {
             let body = &mut bodies[piece.body];
-            let moved = |number: usize| {
-                let place = piece.place(number);
-                (self.points.at(place), self.points.motion(place))
-            };
-            let is_lost = |&number: &usize| {
-                let (position, displacement) = moved(number);
-                !(position.is_finite() && displacement.is_finite())
-            };
-            if let Some(number) = (0..body.particles.len()).find(is_lost) {
+            moved.clear();
+            moved.extend(piece.in_order().map(|place| (self.points.at(place), self.points.motion(place))));
+            let is_lost =
+                |(position, displacement): &(Vec3, Vec3)| !(position.is_finite() && displacement.is_finite());
+            if let Some(number) = moved.iter().position(is_lost) {
                 lost.push((piece.body, number as u32));
                 continue;
             }
-            for (number, i) in body.particles.clone().enumerate() {
-                (particles.position[i], particles.displacement[i]) = moved(number);
+            for (i, &(position, displacement)) in body.particles.clone().zip(&moved) {
+                (particles.position[i], particles.displacement[i]) = (position, displacement);
             }
             body.previous_step = small;
             if let Substance::Deformable(deformable) = &mut body.substance {
                 deformable.remainders.clear();
-                let places = (0..body.particles.len()).map(|number| piece.place(number));
-                deformable.remainders.extend(places.map(|place| self.points.rest(place)));
+                deformable.remainders.extend(piece.in_order().map(|place| self.points.rest(place)));
                 let stitches = &piece.seams.stitches;
                 for (seam, stitch) in deformable.fabric.seams.iter_mut().zip(stitches) {
                     seam.rest_length = stitch.rest_length;

@@ -32,6 +32,8 @@ pub(super) struct Piece {
     pub(super) body: usize,
     pub(super) layout: Layout,
     pub(super) places: Range<usize>,
+    /// By particle of the body, its place.
+    placed: Vec<u32>,
     pub(super) tiles: Vec<Tile>,
     /// Around each tile, in m, with what was there when they were last made.
     pub(super) boxes: Vec<Bounds>,
@@ -112,6 +114,7 @@ impl Piece {
             body: index,
             layout,
             places,
+            placed: Vec::new(),
             tiles,
             boxes,
             held: Vec::new(),
@@ -130,6 +133,7 @@ impl Piece {
             fastest: 0.0,
             winding: None,
         };
+        piece.placed = (0..count).map(|particle| piece.find_place(particle) as u32).collect();
         piece.dress(deformable, start, h);
         piece.tie(body, deformable, particles);
         piece
@@ -152,7 +156,17 @@ impl Piece {
     }
 
     /// The place of a particle of the body.
+    #[inline(always)]
     pub(super) fn place(&self, particle: usize) -> usize {
+        self.placed[particle] as usize
+    }
+
+    /// The places of all particles of the body, in their order.
+    pub(super) fn in_order(&self) -> impl Iterator<Item = usize> {
+        self.placed.iter().map(|&place| place as usize)
+    }
+
+    fn find_place(&self, particle: usize) -> usize {
         match &self.layout {
             Layout::Sheet(sheet) => {
                 sheet.grid.place(particle / sheet.grid.columns, particle % sheet.grid.columns)

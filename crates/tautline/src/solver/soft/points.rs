@@ -62,6 +62,18 @@ impl Points {
         get(&self.start, place) + get(&self.offset, place)
     }
 
+    /// Where a particle was when this small step began, in m: what pushes it there turns it about anything by that arm.
+    #[inline(always)]
+    pub(super) fn begun_at(&self, place: usize) -> Vec3 {
+        get(&self.start, place) + get(&self.remainder, place)
+    }
+
+    /// As [`Points::begun_at`], of the eight particles from `place` on.
+    #[inline(always)]
+    pub(super) fn eight_begun_at<L: Lanes>(&self, place: usize) -> Vec3x8<L> {
+        Vec3x8::read(&self.start, place) + Vec3x8::read(&self.remainder, place)
+    }
+
     /// Where the eight particles from `place` on are, in m.
     #[inline(always)]
     pub(super) fn eight_at<L: Lanes>(&self, place: usize) -> Vec3x8<L> {
@@ -98,11 +110,16 @@ impl Points {
 
     /// Ends a substep: where a particle is, what rounding left of that and how it moves are told apart without a loss, so
     /// that substeps are as steps.
-    pub(super) fn settle(&mut self) {
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+    pub(super) fn settle<L: Lanes>(&mut self) {
         let Self { start, offset, remainder, .. } = self;
         for ((start, offset), remainder) in start.iter_mut().zip(offset).zip(remainder) {
-            for ((start, offset), remainder) in start.iter_mut().zip(offset).zip(remainder) {
-                [*start, *offset, *remainder] = settled([*start, *offset, *remainder]);
+            let numbers = eights_mut(start).iter_mut().zip(eights_mut(offset)).zip(eights_mut(remainder));
+            for ((start, offset), remainder) in numbers {
+                let [at, rest, back] = settled([L::read(start), L::read(offset), L::read(remainder)]);
+                at.write(start);
+                rest.write(offset);
+                back.write(remainder);
             }
         }
     }
@@ -201,14 +218,17 @@ fn sum<L: Lanes>(a: Vec3x8<L>, b: Vec3x8<L>) -> (Vec3x8<L>, Vec3x8<L>) {
 
 /// A coordinate's start, offset and remainder, with the offset in the start, such that the offset is what rounding leaves,
 /// and the offset less the remainder the motion, exactly: the smaller of the two loses what the larger has no digits for.
-fn settled([start, offset, remainder]: [f32; 3]) -> [f32; 3] {
+#[inline(always)]
+fn settled<L: Lanes>([start, offset, remainder]: [L; 3]) -> [L; 3] {
     let motion = offset - remainder;
     let at = start + offset;
     let of_offset = at - start;
     let rest = (start - (at - of_offset)) + (offset - of_offset);
     let back = rest - motion;
-    let rest = if motion.abs() >= rest.abs() { back + motion } else { rest };
-    if at + rest == at { [at, rest, back] } else { [at, 0.0, -motion] }
+    let is_slow = rest.max(-rest).greater(motion.max(-motion));
+    let rest = is_slow.select(rest, back + motion);
+    let is_rest = (at + rest).equal(at);
+    [at, is_rest.and(rest), is_rest.select(back, -motion)]
 }
 
 /// Particles that a kernel moves: where their small step began, and how far they are from there.
@@ -327,6 +347,11 @@ impl<'a> Eights<'a> {
 #[inline(always)]
 pub(super) fn eights(numbers: &[f32]) -> &[[f32; LANES]] {
     numbers.as_chunks().0
+}
+
+#[inline(always)]
+fn eights_mut(numbers: &mut [f32]) -> &mut [[f32; LANES]] {
+    numbers.as_chunks_mut().0
 }
 
 #[inline(always)]

@@ -8,9 +8,9 @@ use super::elastic::Stiffen;
 use super::gas;
 use super::hinge;
 use super::hot::Contacts;
-use super::meet::part_pair;
+use super::pair::{Parting, part_pair};
 use super::piece::{Layout, Piece};
-use super::points::SmallStep;
+use super::points::{Points, SmallStep};
 use super::sheet::Sheet;
 use super::solid::Solid;
 use super::stick::Span;
@@ -54,8 +54,9 @@ impl Timing {
         Moment { left, small: self.small, recovery: self.recovery * self.small }
     }
 
-    fn push(&self) -> Push {
-        Push { recovery: self.recovery * self.small, lightness: LIGHTNESS }
+    fn push(&self, number: usize) -> Push {
+        let Moment { left, recovery, .. } = self.moment(number);
+        Push { recovery, lightness: LIGHTNESS, left }
     }
 }
 
@@ -65,6 +66,7 @@ impl SoftSolver {
         let instructions = timing.instructions;
         let mut until_search = 0;
         for number in 0..timing.count {
+            solids.iter_mut().for_each(Solid::advance);
             self.wind_ropes();
             self.blow(number, timing);
             run(instructions, Integrate(self, timing));
@@ -83,13 +85,23 @@ impl SoftSolver {
             run(instructions, Part(self, timing.recovery * timing.small));
             run(instructions, PullRopes(self));
             self.unload_ties(solids, timing.moment(number));
-            run(instructions, PushOut { solver: self, solids, timing });
-            run(instructions, SweepWindows { solver: self, solids, timing });
+            run(instructions, PushOut { solver: self, solids, push: timing.push(number) });
+            run(instructions, SweepWindows { solver: self, solids, push: timing.push(number) });
             self.ties.pull(&mut self.points, solids, timing.moment(number));
-            solids.iter_mut().for_each(Solid::advance);
             self.done += 1;
         }
-        self.points.settle();
+        run(instructions, Settle(&mut self.points));
+    }
+}
+
+struct Settle<'a>(&'a mut Points);
+
+impl Kernel for Settle<'_> {
+    type Output = ();
+
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+    fn run<L: Lanes>(self) {
+        self.0.settle::<L>();
     }
 }
 
@@ -204,15 +216,20 @@ impl Kernel for Part<'_> {
     fn run<L: Lanes>(self) {
         let Self(solver, recovery) = self;
         let is_time = solver.done.is_multiple_of(LOOK_EVERY);
+        if is_time {
+            solver.couples.clear();
+        }
         if is_time && !solver.meetings.is_empty() {
             solver.look_at_cloth::<L>();
         }
         if is_time && !solver.strands.is_empty() {
             solver.look_at_ropes::<L>();
         }
-        solver.meetings.part(&mut solver.points, recovery);
-        let SoftSolver { points, pieces, strands, .. } = solver;
-        strands.part(points, recovery, |piece| pieces[piece as usize].rest.leans = true);
+        let SoftSolver { points, pieces, strands, meetings, couples, .. } = solver;
+        couples.look::<L>(points, pieces);
+        meetings.part(points, recovery, couples);
+        strands.part(points, recovery, couples, |piece| pieces[piece as usize].rest.leans = true);
+        couples.give_back::<L>(points, pieces);
     }
 }
 
@@ -251,7 +268,7 @@ impl SoftSolver {
         }
         // What has moved since the step began has in its first look moved for one small step only.
         let ahead = if self.done == 0 { LOOK_EVERY as f32 } else { 1.0 };
-        self.meetings.look::<L>(&self.points, ahead);
+        self.meetings.look::<L>(&self.points, ahead, &mut self.couples);
     }
 
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
@@ -270,7 +287,7 @@ impl SoftSolver {
             thickness: piece.thickness,
             friction: piece.friction,
         });
-        self.strands.look::<L>(&self.points, sheets, margin);
+        self.strands.look::<L>(&self.points, sheets, margin, &mut self.couples);
     }
 }
 
@@ -299,7 +316,7 @@ impl Kernel for PullRopes<'_> {
 struct SweepWindows<'a, 'b> {
     solver: &'a mut SoftSolver,
     solids: &'a mut [Solid<'b>],
-    timing: &'a Timing,
+    push: Push,
 }
 
 impl Kernel for SweepWindows<'_, '_> {
@@ -307,9 +324,10 @@ impl Kernel for SweepWindows<'_, '_> {
 
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn run<L: Lanes>(self) {
-        let SoftSolver { points, pieces, lightened, touches, strands, meetings, done, .. } = self.solver;
-        let push = self.timing.push();
-        for piece in pieces {
+        let SoftSolver { points, pieces, lightened, touches, strands, meetings, couples, done, .. } =
+            self.solver;
+        let push = self.push;
+        for piece in pieces.iter_mut() {
             let Layout::Sheet(sheet) = &mut piece.layout else { continue };
             let Sheet { grid, weave, windows, .. } = &mut **sheet;
             let is_fine = grid.columns.max(grid.rows) >= FINE;
@@ -333,10 +351,11 @@ impl Kernel for SweepWindows<'_, '_> {
                 let (mut moving, masses) = points.moving();
                 grid.sweep::<L>(&mut moving, masses, window, &limits);
                 for &([a, b], distance) in pairs {
-                    part_pair(points, [a as usize, b as usize], (distance, 0.0), 0.0);
+                    let parting = Parting { distance, most: 0.0, friction: 0.0, turn: Vec3::ZERO };
+                    part_pair(points, [a as usize, b as usize], parting);
                 }
                 for &number in brushes {
-                    strands.brushes[number as usize].part(points, 0.0);
+                    strands.brushes[number as usize].part(points, 0.0, couples);
                 }
                 for &number in listed {
                     let touch = &mut touches[number as usize];
@@ -345,6 +364,7 @@ impl Kernel for SweepWindows<'_, '_> {
                 }
             }
         }
+        couples.give_back::<L>(points, pieces);
     }
 }
 
@@ -365,7 +385,7 @@ const COOL: f32 = 0.8;
 struct PushOut<'a, 'b> {
     solver: &'a mut SoftSolver,
     solids: &'a mut [Solid<'b>],
-    timing: &'a Timing,
+    push: Push,
 }
 
 impl Kernel for PushOut<'_, '_> {
@@ -375,7 +395,7 @@ impl Kernel for PushOut<'_, '_> {
     fn run<L: Lanes>(self) {
         let SoftSolver { points, pieces, lightened, touches, .. } = self.solver;
         lightened.copy_from_slice(&points.inverse_mass);
-        let push = self.timing.push();
+        let push = self.push;
         for touch in touches {
             let solid = &mut self.solids[touch.solid as usize];
             if touch.solve::<L>(points, lightened, solid, push) {

@@ -116,6 +116,17 @@ impl<'a> Solid<'a> {
         (self.change.shift, self.change.turn)
     }
 
+    /// Where its centre of mass was when the small step began after which `left` are still to come, in m. What pushes it
+    /// and something else at one place must have both arms from then, or it would turn the two by different amounts.
+    pub(super) fn begun_at(&self, left: f32) -> Vec3 {
+        self.center - self.linear * (left + 1.0) + (self.change.shift - self.change.linear)
+    }
+
+    /// How a place at an arm (m) from its centre moves in this small step, in m.
+    pub(super) fn motion_at(&self, arm: Vec3) -> Vec3 {
+        self.linear + self.change.linear + (self.angular + self.change.angular).cross(arm)
+    }
+
     /// Gives it an impulse, in kg m in a small step, at an arm (m) from its centre: that moves it at once, and from then
     /// on in every small step.
     #[inline(always)]
@@ -127,7 +138,7 @@ impl<'a> Solid<'a> {
         self.change.turn += angular;
     }
 
-    /// Ends a small step: what it has been given moves it on.
+    /// Begins a small step: what it has been given moves it on.
     pub(super) fn advance(&mut self) {
         self.change.shift += self.change.linear;
         self.change.turn += self.change.angular;

@@ -1,6 +1,6 @@
 //! Eight sticks at a time.
 
-use super::points::{Moving, eights, first};
+use super::points::{Moving, MovingEights, eights, first};
 use crate::simd::{LANES, Lanes, Row, Vec3x8, read};
 
 /// What lengths a stick may have, and how it gives.
@@ -102,6 +102,26 @@ pub(super) fn relax_run<L: Lanes>(
         let (a, b) = (a + full, b + full);
         relax([a, b], moving, [mask.and(read(masses, a)), mask.and(read(masses, b))], spans);
     }
+}
+
+/// Relaxes the sticks between the eights of numbers `a` and `b`: those that are set in `mask`, if there is one.
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+pub(super) fn relax_eights<L: Lanes>(
+    moving: &mut MovingEights<'_>,
+    masses: &[[f32; LANES]],
+    [a, b]: [usize; 2],
+    mask: Option<L>,
+    spans: Spans<L>,
+) {
+    let ([start_a, offset_a], [start_b, offset_b]) = (moving.read(a), moving.read(b));
+    let mut masses = [L::read(&masses[a]), L::read(&masses[b])];
+    if let Some(mask) = mask {
+        masses = [mask.and(masses[0]), mask.and(masses[1])];
+    }
+    let before = start_b - start_a;
+    let pull = pull(before + (offset_b - offset_a), before, masses, spans);
+    moving.write(a, offset_a + pull * masses[0]);
+    moving.write(b, offset_b - pull * masses[1]);
 }
 
 /// Relaxes the eight sticks from the places `a` on to those from `b` on.

@@ -3,9 +3,10 @@
 //! What may touch is listed every few small steps, with a margin for how far all may get until then. Which side of a
 //! segment something is on is that of the small step's start, so that nothing gets through however fast.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use super::points::Points;
+use super::spin::Couples;
 use super::tile::{Bounds, Tile};
 use crate::norm::Norm;
 use crate::simd::{Lanes, Vec3x8};
@@ -50,6 +51,8 @@ pub(super) struct Brush {
     /// How far they are kept apart, in m.
     distance: f32,
     friction: f32,
+    /// The number of both among the couples.
+    couple: u32,
     /// The piece that leans on what is held when they touch; `u32::MAX` = none.
     leaning: u32,
 }
@@ -62,6 +65,8 @@ struct Near {
     /// How far they are kept apart, in m.
     distance: f32,
     friction: f32,
+    /// The number of their ropes among the couples.
+    couple: u32,
 }
 
 /// All segments of awake ropes, and what they may touch.
@@ -103,6 +108,7 @@ impl Strands {
         points: &Points,
         sheets: impl Iterator<Item = Sheeting<'a>>,
         margin: f32,
+        couples: &mut Couples,
     ) {
         self.brushes.clear();
         self.nears.clear();
@@ -116,11 +122,12 @@ impl Strands {
                 }
                 for (segment, _) in self.segments.iter().zip(&boxes).filter(|(_, bounds)| near.meets(bounds))
                 {
-                    list_particles::<L>(points, tile, segment, (&sheet, margin), &mut self.brushes);
+                    let out = (&mut self.brushes, &mut *couples);
+                    list_particles::<L>(points, tile, segment, (&sheet, margin), out);
                 }
             }
         }
-        self.list_segments(&boxes, margin);
+        self.list_segments(&boxes, margin, couples);
         let links = &self.links;
         if !links.is_empty() {
             self.brushes.retain(|brush| !are_linked(links, [brush.place; 2], brush.ends));
@@ -129,7 +136,7 @@ impl Strands {
     }
 
     /// Pairs of segments: swept along x.
-    fn list_segments(&mut self, boxes: &[Bounds], margin: f32) {
+    fn list_segments(&mut self, boxes: &[Bounds], margin: f32, couples: &mut Couples) {
         let mut order: Vec<usize> = (0..boxes.len()).collect();
         order.sort_by(|&a, &b| boxes[a].low.x.total_cmp(&boxes[b].low.x).then(a.cmp(&b)));
         let mut pairs = Vec::new();
@@ -150,19 +157,26 @@ impl Strands {
             let (a, b) = (&self.segments[a], &self.segments[b]);
             let friction = (a.friction * b.friction).sqrt();
             let distance = a.radius + b.radius;
-            Near { a: a.ends, b: b.ends, distance, friction }
+            let couple = couples.number([a.rope, b.rope]);
+            Near { a: a.ends, b: b.ends, distance, friction, couple }
         }));
     }
 
     /// Moves apart what is too close, with friction; what was too close before by `recovery` (m) at most. Calls `leans` with
     /// the pieces of cloth that lean on held ropes.
-    pub(super) fn part(&self, points: &mut Points, recovery: f32, mut leans: impl FnMut(u32)) {
+    pub(super) fn part(
+        &self,
+        points: &mut Points,
+        recovery: f32,
+        couples: &mut Couples,
+        mut leans: impl FnMut(u32),
+    ) {
         for brush in &self.brushes {
-            if brush.part(points, recovery) && brush.leaning != u32::MAX {
+            if brush.part(points, recovery, couples) && brush.leaning != u32::MAX {
                 leans(brush.leaning);
             }
         }
-        self.nears.iter().for_each(|near| near.part(points, recovery));
+        self.nears.iter().for_each(|near| near.part(points, recovery, couples));
     }
 }
 
@@ -188,7 +202,7 @@ fn list_particles<L: Lanes>(
     tile: &Tile,
     segment: &Segment,
     (sheet, margin): (&Sheeting<'_>, f32),
-    out: &mut Vec<Brush>,
+    (out, couples): (&mut Vec<Brush>, &mut Couples),
 ) {
     let distance = sheet.thickness + segment.radius;
     let [start, end] = segment.ends.map(|place| points.at(place as usize));
@@ -201,12 +215,16 @@ fn list_particles<L: Lanes>(
         let reach = distance + margin;
         let is_near = L::splat(reach * reach).greater(gap.length_squared());
         let mut lanes = is_near.and(points.are_there::<L>(first as usize)).bits();
+        if lanes == 0 {
+            continue;
+        }
+        let couple = couples.number([sheet.piece, segment.rope]);
+        let friction = (sheet.friction * segment.friction).sqrt();
+        let leaning = if segment.is_held { sheet.piece } else { u32::MAX };
         while lanes != 0 {
             let place = first + lanes.trailing_zeros();
             lanes &= lanes - 1;
-            let friction = (sheet.friction * segment.friction).sqrt();
-            let leaning = if segment.is_held { sheet.piece } else { u32::MAX };
-            out.push(Brush { place, ends: segment.ends, distance, friction, leaning });
+            out.push(Brush { place, ends: segment.ends, distance, friction, couple, leaning });
         }
     }
 }
@@ -215,7 +233,7 @@ impl Brush {
     /// Of the particle and the nearest place of the segment, as they are: the gap that is missing along the line between
     /// them, and friction. Tells whether they touched.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-    pub(super) fn part(&self, points: &mut Points, recovery: f32) -> bool {
+    pub(super) fn part(&self, points: &mut Points, recovery: f32, couples: &mut Couples) -> bool {
         let (place, [start, end]) = (self.place as usize, [self.ends[0] as usize, self.ends[1] as usize]);
         let (from, to) = (points.at(start), points.at(end));
         let (at, along) = (points.at(place), to - from);
@@ -231,13 +249,15 @@ impl Brush {
         let (at_start, at_end) =
             (points.inverse_mass[start] * (1.0 - share), points.inverse_mass[end] * share);
         let mobility = mass + at_start * (1.0 - share) + at_end * share;
-        let Some([impulse, out]) = push(gap, slip, (self.distance, self.friction), mobility, recovery) else {
+        let law = (self.distance, self.friction, couples.turn(self.couple));
+        let Some(Pushed { impulse, out, moment }) = push(gap, slip, law, mobility, recovery) else {
             return false;
         };
         for (place, share) in [(start, at_start), (end, at_end), (place, -mass)] {
             points.shift(place, impulse * share);
             points.carry(place, out * share);
         }
+        couples.add(self.couple, moment);
         true
     }
 }
@@ -245,7 +265,7 @@ impl Brush {
 impl Near {
     /// As [`Brush::part`], of the nearest places of two segments.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-    fn part(&self, points: &mut Points, recovery: f32) {
+    fn part(&self, points: &mut Points, recovery: f32, couples: &mut Couples) {
         let [a, b] = [self.a, self.b].map(|ends| ends.map(|place| place as usize));
         let (ends_a, ends_b) = (a.map(|place| points.at(place)), b.map(|place| points.at(place)));
         let [share_a, share_b] = nearest_shares(ends_a, ends_b);
@@ -263,42 +283,63 @@ impl Near {
         let [shares_a, shares_b] = [of(a, weights[0]), of(b, weights[1])];
         let dot = |a: [f32; 2], b: [f32; 2]| a[0] * b[0] + a[1] * b[1];
         let mobility = dot(shares_a, weights[0]) + dot(shares_b, weights[1]);
-        let Some([impulse, out]) = push(gap, slip, (self.distance, self.friction), mobility, recovery) else {
+        let law = (self.distance, self.friction, couples.turn(self.couple));
+        let Some(Pushed { impulse, out, moment }) = push(gap, slip, law, mobility, recovery) else {
             return;
         };
         for (place, share) in b.into_iter().zip(shares_b).chain(a.into_iter().zip(shares_a.map(|w| -w))) {
             points.shift(place, impulse * share);
             points.carry(place, out * share);
         }
+        couples.add(self.couple, moment);
     }
 }
 
-/// What the second of two gets that are `gap` (m) apart and have moved by `slip` (m) against each other in this small step,
-/// per inverse mass: what becomes velocity, with friction by Coulomb's law on displacements, and what does not. What has
-/// passed the other is taken back to its side. Nothing if they do not touch.
+/// What two that are `gap` (m) apart and have moved by `slip` (m) against each other in this small step give each other.
+struct Pushed {
+    /// What the second gets per inverse mass that becomes velocity, …
+    impulse: Vec3,
+    /// … and what does not.
+    out: Vec3,
+    /// What that adds to angular momentum, in kg m² in a small step.
+    moment: DVec3,
+}
+
+/// With friction by Coulomb's law on displacements, but for what turns with the whole by `turn` (rad). What has passed the
+/// other is taken back to its side. Nothing if they do not touch. Along and across as `meet::part_pair`.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn push(
     gap: Vec3,
     slip: Vec3,
-    (distance, friction): (f32, f32),
+    (distance, friction, turn): (f32, f32, Vec3),
     mobility: f32,
     recovery: f32,
-) -> Option<[Vec3; 2]> {
+) -> Option<Pushed> {
     let before = gap - slip;
     let has_passed = gap.dot(before) < 0.0;
     if !has_passed && gap.length_squared() >= distance * distance || mobility <= 0.0 {
         return None;
     }
     let length = gap.norm();
-    let (normal, apart) =
-        if has_passed { (before.unit_or(Vec3::Y), -length) } else { (gap.unit_or(Vec3::Y), length) };
+    let (normal, apart) = if has_passed {
+        (before.unit_or(Vec3::Y), -length)
+    } else if gap.dot(before) > 0.5 * length * length.max(before.norm()) {
+        (before.unit_or(Vec3::Y), length)
+    } else {
+        (gap.unit_or(Vec3::Y), length)
+    };
     let depth = distance - apart;
     let across = slip - normal * slip.dot(normal);
-    let grip = (friction * depth / across.norm().max(1e-9)).min(1.0);
+    let rubbing = across - turn.cross(before);
+    let grip = (friction * depth / rubbing.norm().max(1e-9)).min(1.0);
     // What is deeper than it moved in is moved out without velocity.
     let braked = depth.min((-slip.dot(normal)).max(0.0));
-    let impulse = (normal * braked - across * grip) / mobility;
-    Some([impulse, normal * ((depth - braked).min(recovery) / mobility)])
+    let out = (depth - braked).min(recovery);
+    let slowed = (across - rubbing * grip) * (out / (before.norm() + out).max(1e-9));
+    let impulse = (normal * braked - rubbing * grip - slowed) / mobility;
+    let out = normal * (out / mobility);
+    let moment = before.cross(impulse) + out.cross(slip + impulse * mobility);
+    Some(Pushed { impulse, out, moment: moment.as_dvec3() })
 }
 
 /// Where two segments are nearest to each other: shares from their starts (Ericson, Real-Time Collision Detection,

@@ -124,11 +124,16 @@ pub(super) fn inside<L: Lanes>(
     place: usize,
     bounds: &Bounds,
 ) -> u32 {
-    let at = Vec3x8::<L>::read(positions, place);
+    within(Vec3x8::<L>::read(positions, place), bounds) & points.are_there::<L>(place).bits()
+}
+
+/// Bits of those of eight places that are in a box.
+#[inline(always)]
+pub(super) fn within<L: Lanes>(at: Vec3x8<L>, bounds: &Bounds) -> u32 {
     let (low, high) = (Vec3x8::<L>::splat(bounds.low), Vec3x8::splat(bounds.high));
     let below = low.x.greater(at.x).bits() | low.y.greater(at.y).bits() | low.z.greater(at.z).bits();
     let above = at.x.greater(high.x).bits() | at.y.greater(high.y).bits() | at.z.greater(high.z).bits();
-    !(below | above) & points.are_there::<L>(place).bits()
+    !(below | above) & ((1 << LANES) - 1)
 }
 
 #[cfg(test)]

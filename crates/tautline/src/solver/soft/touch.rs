@@ -9,7 +9,7 @@ use glam::{Mat3, Vec3};
 use super::points::Points;
 use super::probe::{Facet, Form, Probe, probe_triangles};
 use super::solid::{Matter, Solid, Stance, part_bounds};
-use super::tile::{Bounds, Tile};
+use super::tile::{Bounds, Tile, within};
 use crate::norm::Norm;
 use crate::shape::Surface;
 use crate::simd::{LANES, Lanes, Matrix3x8, Row, Vec3x8, column, read, write};
@@ -73,7 +73,7 @@ pub(super) fn find<L: Lanes>(
             for (part, form) in parts {
                 let near = part_bounds(part, stance).grown(reach);
                 for (tile, _) in tiles.iter().zip(boxes).filter(|(_, bounds)| near.meets(bounds)) {
-                    finder.tile::<L>(tile, Target::Form(form), part.convex.radius, out);
+                    finder.tile::<L>(tile, Target::Form(form, &near), part.convex.radius, out);
                 }
             }
         }
@@ -113,7 +113,8 @@ impl Triangles {
 #[derive(Clone, Copy)]
 enum Target<'a> {
     HalfSpace(Vec3, f32),
-    Form(&'a Form<'a>),
+    /// What is not in the box is too far away.
+    Form(&'a Form<'a>, &'a Bounds),
     Triangles(&'a [Facet]),
 }
 
@@ -143,7 +144,8 @@ impl Finder<'_> {
                 let normal = Vec3x8::splat(normal);
                 Probe { distance: at.dot(normal) - L::splat(offset), normal }
             }
-            Target::Form(form) => self.turned(form.probe(self.local(from_center), reach + radius)),
+            Target::Form(_, near) if within(at, near) == 0 => return,
+            Target::Form(form, _) => self.turned(form.probe(self.local(from_center), reach + radius)),
             Target::Triangles(facets) => self.turned(probe_triangles(self.local(from_center), facets, reach)),
         };
         let distance = probe.distance - L::splat(radius);
@@ -196,6 +198,8 @@ pub(super) struct Push {
     pub(super) recovery: f32,
     /// How many times lighter a particle is held to be in the next sweep after it touched what does not move.
     pub(super) lightness: f32,
+    /// Small steps of the substep that are still to come.
+    pub(super) left: f32,
 }
 
 impl Touch {
@@ -253,7 +257,7 @@ impl Touch {
         let along = slip.dot(normal);
         let depth = hits.and(depth.min((-along).max(zero) + L::splat(push.recovery)));
         if solid.inverse_mass > 0.0 {
-            self.share(points, solid, depth, slip - normal * along);
+            self.share(points, solid, depth, push.left);
             return true;
         }
         let across = slip - normal * along;
@@ -273,17 +277,16 @@ impl Touch {
         Vec3x8::splat(shift - self.astray.0) + Vec3x8::splat(turn - self.astray.1).cross(arm)
     }
 
-    /// As [`Touch::solve`] for a solid that is moved in turn: particle after particle.
+    /// As [`Touch::solve`] for a solid that is moved in turn: particle after particle. Both are pushed where the particle is,
+    /// a thickness from the surface, so that together they turn nothing.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-    fn share<L: Lanes>(&self, points: &mut Points, solid: &mut Solid<'_>, depth: L, slip: Vec3x8<L>) {
-        let (mut depths, mut slips) = (Row::ZERO, [Row::ZERO; 3]);
+    fn share<L: Lanes>(&self, points: &mut Points, solid: &mut Solid<'_>, depth: L, left: f32) {
+        let mut depths = Row::ZERO;
         depth.store(&mut depths);
-        slip.store(&mut slips);
         let (shift, turn) = solid.astray();
         for lane in (0..LANES).filter(|&lane| depths.0[lane] > 0.0) {
             let place = self.place as usize + lane;
-            let (normal, arm, slip) =
-                (column(&self.normal, lane), column(&self.arm, lane), column(&slips, lane));
+            let (normal, arm) = (column(&self.normal, lane), points.begun_at(place) - solid.begun_at(left));
             let (shift_now, turn_now) = solid.astray();
             // What the particles before it did to the solid.
             let given_way = (shift_now - shift) + (turn_now - turn).cross(arm);
@@ -297,6 +300,8 @@ impl Touch {
                 mass + solid.inverse_mass + turned.dot(solid.inverse_inertia * turned)
             };
             let pressure = depth / mobility(normal);
+            let slip = points.motion(place) - solid.motion_at(arm);
+            let slip = slip - normal * slip.dot(normal);
             let length = slip.norm();
             let mut impulse = normal * pressure;
             if length > 1e-12 {

@@ -63,13 +63,17 @@ impl RigidSolver {
         }
         let (block, lane) = (&mut self.crew.blocks[place / LANES], place % LANES);
         let root = column(&block.constants.root_inertia, lane);
-        let turn = columns(&block.start_axes, lane).transpose() * change.angular * root;
+        let (start, axes) = (columns(&block.start_axes, lane), columns(&block.axes, lane));
+        let turned = rotation(change.turn) * axes;
+        let row = &self.crew.velocities[place].0;
+        let angular = start * (Vec3::new(row[4], row[5], row[6]) / root) + change.angular;
+        let settled = turned_along(angular, [axes, turned], column(&block.constants.inertia, lane));
+        let turn = start.transpose() * (change.angular + settled) * root;
         let linear = change.linear;
         let added = [linear.x, linear.y, linear.z, 0.0, turn.x, turn.y, turn.z, 0.0];
         for (row, by) in block.shift.iter_mut().zip(change.shift.to_array()) {
             row.0[lane] += by;
         }
-        let turned = rotation(change.turn) * columns(&block.axes, lane);
         for (rows, axis) in block.axes.iter_mut().zip([turned.x_axis, turned.y_axis, turned.z_axis]) {
             rows.iter_mut().zip(axis.to_array()).for_each(|(row, number)| row.0[lane] = number);
         }
@@ -79,6 +83,14 @@ impl RigidSolver {
             rows[place] = add(&rows[place]);
         }
     }
+}
+
+/// What changes of a body's rotation ω when its axes are turned and its angular momentum stays what it was. Of the inertia only
+/// what differs between the axes counts, so that nothing changes for what has none.
+fn turned_along(angular: Vec3, [before, after]: [Mat3; 2], inertia: Vec3) -> Vec3 {
+    let differing = inertia - inertia.min_element();
+    let momentum = |axes: Mat3| axes * (differing * (axes.transpose() * angular));
+    after * ((after.transpose() * (momentum(before) - momentum(after))) / inertia)
 }
 
 /// The rotation by a small vector (rad), without sines: Cayley's (1 + [t/2])/(1 − [t/2]), the rotation by

@@ -1,3 +1,5 @@
+use glam::DMat3;
+
 use super::*;
 use crate::mesh::lattice;
 use crate::solver::soft::tests::{noise3, on_all};

@@ -72,7 +72,7 @@ impl Kernel for Look<'_> {
         let mut strands = strands.clone();
         let boxes: Vec<Bounds> = tiles.iter().map(|tile| tile.bounds::<L>(points)).collect();
         let sheet = Sheeting { piece: 0, tiles, boxes: &boxes, thickness: 0.06, friction: 0.5 };
-        strands.look::<L>(points, std::iter::once(sheet), margin);
+        strands.look::<L>(points, std::iter::once(sheet), margin, &mut Couples::default());
         let of_brushes = strands.brushes.iter().map(|brush| ([brush.place; 2], brush.ends));
         let mut nears: Vec<_> = strands.nears.iter().map(|near| (near.a, near.b)).chain(of_brushes).collect();
         nears.sort_unstable();
@@ -128,9 +128,16 @@ fn crossing_segments_are_parted_and_momentum_is_kept() {
         let masses = points.inverse_mass.clone();
         let momentum = |points: &Points| -> Vec3 { (0..4).map(|k| points.motion(k) / masses[k]).sum() };
         let middle = |points: &Points| -> Vec3 { (0..4).map(|k| points.at(k) / masses[k]).sum() };
-        let (before, place) = (momentum(&points), middle(&points));
-        let near = Near { a: [0, 1], b: [2, 3], distance: 0.05, friction: 0.0 };
-        near.part(&mut points, f32::MAX);
+        let turned = |points: &Points| -> Vec3 {
+            (0..4).map(|k| points.begun_at(k).cross(points.motion(k)) / masses[k]).sum()
+        };
+        let (before, place, turn) = (momentum(&points), middle(&points), turned(&points));
+        let mut couples = Couples::default();
+        let couple = couples.number([0, 1]);
+        let near = Near { a: [0, 1], b: [2, 3], distance: 0.05, friction: 0.0, couple };
+        near.part(&mut points, f32::MAX, &mut couples);
+        // Without friction contacts are central.
+        assert!((turned(&points) - turn).length() < 1e-7, "{height}, {fall}");
         let now = [[0, 1], [2, 3]].map(|ends| ends.map(|k| points.at(k)));
         let shares = nearest_shares(now[0], now[1]).map(f64::from);
         let apart = gap(now[0], now[1], shares);

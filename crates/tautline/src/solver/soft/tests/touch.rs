@@ -43,7 +43,7 @@ impl Kernel for Steps<'_> {
         let mut touches = Vec::new();
         find::<L>((&tiles, &boxes), &points, (0, &solid, &stance), skin, &mut touches);
         let mut lightened = points.inverse_mass.clone();
-        let push = Push { recovery: f32::INFINITY, lightness: 0.5 };
+        let push = Push { recovery: f32::INFINITY, lightness: 0.5, left: 0.0 };
         for _ in 0..count {
             for touch in &mut touches {
                 touch.solve::<L>(&mut points, &mut lightened, &mut solid, push);
