@@ -2,12 +2,13 @@
 //!
 //! Everything that moves is made of particles. A [`RigidBody`] is four of them, placed so that its mass, centre and
 //! inertia are exact; pose, velocity and angular velocity are read from them. A [`Cloth`] is a sheet of particles, a
-//! [`Rope`] a line, and a [`TrussBody`] a rigid body of particles held by sticks.
+//! [`Rope`] a line, and a [`SoftSolid`] a body of tetrahedra. A [`TrussBody`] is the rigid body of the paper that the
+//! engine reproduces: particles held by sticks.
 //!
-//! Rigid bodies of four particles are moved in substeps with soft contacts and exact joints. The particles of cloth and
-//! rope are moved in small steps by Verlet's integrator, and whatever is wrong then, a penetration or a stick of the wrong
-//! length, is mended by moving particles. They all touch each other, and cloth itself. Trusses touch each other only,
-//! unless cloth and rope are moved by the paper's solver too: see [`Settings::cloth`].
+//! Rigid bodies of four particles move in substeps, with soft contacts and exact joints. The particles of cloth and rope
+//! move in small steps by Verlet integration; errors such as a penetration or a stick of the wrong length are then
+//! corrected by moving particles. They all collide with each other, and cloth with itself. Trusses collide only with each
+//! other and with half-spaces, unless the paper's solver also moves cloth and rope: see [`Settings::cloth`].
 //!
 //! ```
 //! use std::sync::Arc;
@@ -58,21 +59,22 @@
 //!
 //! Data flows one way:
 //!
-//! 1. A [`Shape`] is made from numbers, points or a [`TriMesh`](mesh::TriMesh), which comes from [`mesh::primitives`]
-//!    or is your own. For a truss [`Truss::from_mesh`] takes the mesh. Many bodies share one.
-//! 2. A builder ([`RigidBody`], [`TrussBody`], [`Cloth`], [`Rope`], [`HalfSpace`]) says where a body starts and what it
-//!    is made of. [`World::add`] checks it and gives a [`BodyHandle`]. [`World::add_joint`] connects rigid bodies,
-//!    [`World::attach`] cloth and rope to anything.
-//! 3. [`World::step`] moves everything. For rigid bodies it finds contacts once, and solves joints and contacts in each
-//!    substep; for particles held by sticks it integrates, finds what touches, separates and relaxes in each substep.
-//!    A [`StepReport`] says what that took. In between, forces, impulses, poses and velocities can be set, and a body
-//!    picked up: [`World::apply_force`], [`World::set_pose`], [`World::grab`].
+//! 1. A [`Shape`] is made from numbers, points or a [`TriMesh`](mesh::TriMesh), either from [`mesh::primitives`] or your
+//!    own. For a truss, [`Truss::from_mesh`] takes the mesh. Many bodies can share one.
+//! 2. A builder ([`RigidBody`], [`TrussBody`], [`Cloth`], [`Rope`], [`SoftSolid`], [`HalfSpace`]) says where a body starts
+//!    and what it is made of. [`World::add`] checks it and returns a [`BodyHandle`]. [`World::add_joint`] connects rigid
+//!    bodies, [`World::attach`] attaches cloth and rope to anything.
+//! 3. [`World::step`] moves everything. For rigid bodies it finds contacts once a step, or once a substep if some are very
+//!    fast, and solves joints and contacts in each substep. Cloth and rope move in small steps within each substep; for
+//!    trusses it integrates, finds contacts, separates and relaxes in each substep. A [`StepReport`] says what that took.
+//!    Between steps you can set forces, impulses, poses and velocities, and pick up a body: [`World::apply_force`],
+//!    [`World::set_pose`], [`World::grab`].
 //! 4. [`World::body`] shows a body as it is now: a surface to draw, a pose, velocities. [`World::ray_cast`],
-//!    [`World::shape_cast`], [`World::overlap`] and [`World::closest_point`] tell what is where. [`World::strain`],
-//!    [`World::penetration`] and the energies measure the whole.
+//!    [`World::shape_cast`], [`World::overlap`] and [`World::closest_point`] query what is where. [`World::strain`],
+//!    [`World::penetration`] and the energies measure the whole world.
 //! 5. [`World::snapshot`] turns everything into bytes, [`World::restore`] turns them back.
 //!
-//! The geometry below can be used without a world: [`geometry::distance::distance`] of two convex hulls,
+//! The geometry can be used without a world: [`geometry::distance::distance`] between two convex hulls,
 //! [`geometry::swept`], [`geometry::sphere_tree`], [`mesh::HalfEdgeMesh`], [`mesh::convex_hull`], [`mesh::decimate`],
 //! [`mesh::tetrahedralise`], [`mesh::Embedding`], [`mesh::MassProperties`].
 //!
@@ -80,8 +82,8 @@
 //!
 //! - **The same bits.** The same calls in the same order give the same [`World::state_hash`] on every platform,
 //!   with and without optimisation, on any number of threads and with any [`Instructions`].
-//! - **No panic.** What is wrong with a call is an [`Error`] that names the field, and the world is as it was
-//!   before. A particle that turns non-finite freezes its body, and the step's report says so.
+//! - **No panic.** A wrong call returns an [`Error`] that names the field, and leaves the world as it was. If a particle
+//!   becomes non-finite, its body is frozen and the step's report says so.
 //! - **No surprises.** The engine reads no clock and no files, draws no random numbers and prints nothing.
 #![cfg_attr(
     not(test),

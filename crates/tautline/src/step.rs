@@ -14,14 +14,14 @@ use crate::solver::paper::{relax_bodies, separate};
 use crate::solver::soft::sleepers_near_movers;
 use crate::world::{Scratch, World};
 
-/// How many times faster than what puts a body to sleep is what wakes it.
+/// The speed that wakes a body, as a multiple of the speed below which it falls asleep.
 const WAKING_SPEED: f32 = 2.0;
 
 impl World {
     /// Advances the world by `dt` seconds, in `settings.substeps` equal substeps.
     ///
     /// The same scene, settings and sequence of `dt` give the same bits on every platform, instruction set and
-    /// number of threads. It never panics; a particle that turns non-finite is frozen and reported.
+    /// number of threads. It never panics; a body with a particle that becomes non-finite is frozen and reported.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] unless `dt` is from 1e-7 to 1 s; the world is as before.
@@ -29,8 +29,8 @@ impl World {
         self.step_with_clock(dt, &mut || 0.0)
     }
 
-    /// As [`World::step`], with times by phase in the report: `clock` tells the time, in s. The engine has no
-    /// clock of its own.
+    /// As [`World::step`], with the time of each phase in the report: `clock` returns the time, in s. The engine has
+    /// no clock of its own.
     ///
     /// # Errors
     /// As [`World::step`].
@@ -91,7 +91,7 @@ impl World {
         }
     }
 
-    /// Wakes cloth and rope near what moves, and rigid bodies near cloth and rope that moves.
+    /// Wakes cloth and rope near moving bodies, and rigid bodies near moving cloth and rope.
     fn wake_around_soft(&mut self) {
         if self.settings.cloth == ClothSolver::SmallSteps {
             for body in sleepers_near_movers(&self.bodies, &self.particles, self.settings.sleep) {
@@ -100,7 +100,7 @@ impl World {
         }
     }
 
-    /// Finds where rigid bodies touch, once for all substeps; or for one, if some are in haste.
+    /// Finds where rigid bodies touch: for all substeps, or for the first one only if some bodies are very fast.
     fn begin_rigid(&mut self, h: f32, report: &mut StepReport, watch: &mut Stopwatch<'_, '_>) {
         self.joints.events.clear();
         self.rigid.begin_step();
@@ -111,7 +111,7 @@ impl World {
         }
     }
 
-    /// Finds where rigid bodies touch. Returns at how many points.
+    /// Finds where rigid bodies touch. Returns the number of contact points.
     fn find_rigid_contacts(&mut self, h: f32, watch: &mut Stopwatch<'_, '_>) -> usize {
         let Self { rigid, bodies, particles, joints, settings, .. } = self;
         rigid.begin((bodies, particles, joints), settings, h);
@@ -134,8 +134,8 @@ impl World {
         self.contacts.finish(&self.rigid.presses(), &self.bodies, &self.slots);
     }
 
-    /// Writes what the substeps made of the rigid bodies to their particles. What is lost is frozen where it was. What
-    /// joints did is added to what they did in an earlier part of the step, if there was one.
+    /// Writes the state of rigid bodies back to their particles. A body that is no longer finite is frozen where it was.
+    /// What joints did is added to what they did in earlier parts of the step, if there were any.
     fn write_rigid(&mut self, h: f32, has_parts: bool, report: &mut StepReport) {
         let Self { rigid, bodies, particles, settings, slots, .. } = self;
         for lost in rigid.finish(bodies, particles, settings, h) {
@@ -150,7 +150,7 @@ impl World {
         self.joints.keep(states, has_parts);
     }
 
-    /// Writes what the substeps made of cloth and rope. What is not finite any more is frozen where it was.
+    /// Writes the state of cloth and rope back to their particles. A body that is no longer finite is frozen where it was.
     fn finish_soft(&mut self, h: f32, report: &mut StepReport) {
         let Self { soft, bodies, particles, slots, .. } = self;
         for (index, particle) in soft.finish(bodies, particles, h) {
@@ -216,7 +216,7 @@ impl World {
                 }
             }
         }
-        // Before anything else comes to touch it.
+        // Before anything else can touch it.
         self.contain_faults(report);
     }
 
@@ -247,7 +247,7 @@ impl World {
         self.scratch.narrow_phase.find_contacts(scene, &mut self.pairs.pairs, &mut self.scratch.contacts);
     }
 
-    /// A body wakes at more speed than it falls asleep at, or it would do both in turn.
+    /// A body wakes at a higher speed than it falls asleep at, or it would alternate between the two.
     fn wake_touched(&mut self, h: f32) {
         if let Some(sleep) = self.settings.sleep {
             let gravity_step = self.settings.gravity * (h * h);
@@ -257,7 +257,7 @@ impl World {
         }
     }
 
-    /// How far an old overlap may be undone in a substep, in m.
+    /// How far a substep may push an old overlap apart, in m.
     fn separation_limit(&self, h: f32) -> f32 {
         self.settings.separation_speed.map_or(f32::INFINITY, |speed| speed * h)
     }
@@ -269,7 +269,7 @@ impl World {
         separate(&self.scratch.contacts, &self.bodies, &mut self.particles, &mut self.scratch.moved, limit)
     }
 
-    /// Separates touching rigid bodies at the features that are deepest now.
+    /// Separates touching trusses again, at the features that are now deepest.
     fn separate_again(&mut self, h: f32) -> usize {
         let limit = self.separation_limit(h);
         let Scratch { narrow_phase, more_contacts, moved, .. } = &mut self.scratch;

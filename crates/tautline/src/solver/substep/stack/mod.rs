@@ -203,3 +203,6 @@ impl Stack {
         self.contacts.iter().for_each(|contact| contact.give_up(groups, has_moved));
     }
 }
+
+#[cfg(test)]
+mod tests;
