@@ -58,8 +58,9 @@ impl Stack {
             self.system.factor(&self.contacts);
             let change = self.change();
             let share = self.longest_share(&change);
-            let enough = if iteration + 1 < MOST_ITERATIONS { FRICTION } else { ROUGH };
-            if self.take(&change, share, enough) {
+            let is_last = iteration + 1 == MOST_ITERATIONS;
+            let is_done = self.take(&change, share, if is_last { ROUGH } else { FRICTION });
+            if is_done && (is_last || self.parts_the_rest(NOTHING * aim.kick)) {
                 return true;
             }
         }
@@ -75,6 +76,16 @@ impl Stack {
                     true => (0..3).all(|k| off(k).abs() <= SETTLED * slack),
                     false => off(0) >= -slack,
                 }
+            })
+        })
+    }
+
+    /// Whether what is not held does not come nearer, unless it has let go.
+    fn parts_the_rest(&self, slack: f64) -> bool {
+        self.contacts.iter().all(|contact| {
+            contact.points.iter().all(|point| {
+                let off = || contact.speed(&point.lines[0], &self.velocities) - point.targets[0];
+                point.hold != Hold::Off || point.has_let_go || off() >= -slack
             })
         })
     }
