@@ -66,7 +66,9 @@ fn rolling() -> Case {
         name: "a round body rolls down",
         formula: "a = g sin θ/(1 + I/mr²)",
         note: "I is that of the body as it is, of a faceted one too. A hull tips from facet to facet and loses energy at each, as \
-               a wheel without a rim does: about 5, 1, 0.5 and 0.4 % with 642, 2562, 10 242 and 40 962 vertices.",
+               a wheel without a rim does: with 10 242 vertices it is 1.5 % behind a ball in steps of 1/480 s. In steps of \
+               1/60 s it rolls over one and a half facets in each and is faster than the ball, whatever the substeps: contacts \
+               know the points that were near when the step began.",
         trials: variants.map(trial).into(),
     }
 }
