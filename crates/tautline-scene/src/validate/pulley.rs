@@ -96,9 +96,7 @@ fn atwood() -> Case {
         group: "Cloth and rope",
         name: "Atwood's machine",
         formula: "a = g (m₂ − m₁)/(m₁ + m₂ + I/r²)",
-        note: "A rope of 20 g/m, which counts, over a cylinder on a hinge; how far it has fallen after 0.75 s. The rope sinks by \
-               2 mm onto the cylinder's facets, which lets both ends down by 3 mm; and its light particles tremble along it \
-               between heavy ends, which friction takes for slip: the surface of a roll of 0.5 kg lags behind it by 2 to 8 %.",
+        note: "A rope of 20 g/m, which counts, over a cylinder on a hinge; how far it has fallen after 0.75 s.",
         trials: variants.map(trial).into(),
     }
 }

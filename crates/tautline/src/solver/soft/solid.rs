@@ -122,11 +122,6 @@ impl<'a> Solid<'a> {
         self.center - self.linear * (left + 1.0) + (self.change.shift - self.change.linear)
     }
 
-    /// How a place at an arm (m) from its centre moves in this small step, in m.
-    pub(super) fn motion_at(&self, arm: Vec3) -> Vec3 {
-        self.linear + self.change.linear + (self.angular + self.change.angular).cross(arm)
-    }
-
     /// Gives it an impulse, in kg m in a small step, at an arm (m) from its centre: that moves it at once, and from then
     /// on in every small step.
     #[inline(always)]

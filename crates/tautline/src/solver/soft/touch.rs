@@ -257,7 +257,7 @@ impl Touch {
         let along = slip.dot(normal);
         let depth = hits.and(depth.min((-along).max(zero) + L::splat(push.recovery)));
         if solid.inverse_mass > 0.0 {
-            self.share(points, solid, depth, push.left);
+            self.share(points, solid, depth, slip - normal * along, push.left);
             return true;
         }
         let across = slip - normal * along;
@@ -278,11 +278,20 @@ impl Touch {
     }
 
     /// As [`Touch::solve`] for a solid that is moved in turn: particle after particle. Both are pushed where the particle is,
-    /// a thickness from the surface, so that together they turn nothing.
+    /// a thickness from the surface, so that together they turn nothing. `slip` is against the course that the solid was
+    /// found on.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-    fn share<L: Lanes>(&self, points: &mut Points, solid: &mut Solid<'_>, depth: L, left: f32) {
-        let mut depths = Row::ZERO;
+    fn share<L: Lanes>(
+        &self,
+        points: &mut Points,
+        solid: &mut Solid<'_>,
+        depth: L,
+        slip: Vec3x8<L>,
+        left: f32,
+    ) {
+        let (mut depths, mut slips) = (Row::ZERO, [Row::ZERO; 3]);
         depth.store(&mut depths);
+        slip.store(&mut slips);
         let (shift, turn) = solid.astray();
         for lane in (0..LANES).filter(|&lane| depths.0[lane] > 0.0) {
             let place = self.place as usize + lane;
@@ -300,8 +309,7 @@ impl Touch {
                 mass + solid.inverse_mass + turned.dot(solid.inverse_inertia * turned)
             };
             let pressure = depth / mobility(normal);
-            let slip = points.motion(place) - solid.motion_at(arm);
-            let slip = slip - normal * slip.dot(normal);
+            let slip = column(&slips, lane);
             let length = slip.norm();
             let mut impulse = normal * pressure;
             if length > 1e-12 {
