@@ -147,27 +147,24 @@ fn is_in_order(a: &[Vec3], b: &[Vec3]) -> bool {
 }
 
 fn ordered_distance(a: &Set, b: &Set) -> Distance {
-    let axis = b.middle - a.middle;
-    if a.points.len().max(b.points.len()) < MANY {
-        distance_along(axis, &Points(a.points), &Points(b.points))
+    let mut axis = b.middle - a.middle;
+    let is_few = a.points.len().max(b.points.len()) < MANY;
+    let (a, b) = (Points(a.points), Points(b.points));
+    let gjk = if is_few {
+        gjk::closest(&a, &b, &mut axis)
     } else {
-        distance_along(axis, &PointRows::new(a.points), &PointRows::new(b.points))
-    }
-}
-
-/// The distance of what probably lies in this direction of each other.
-fn distance_along(mut axis: Vec3, a: &impl Support, b: &impl Support) -> Distance {
-    let gjk = gjk::closest(a, b, &mut axis);
+        gjk::closest(&PointRows::new(a.0), &PointRows::new(b.0), &mut axis)
+    };
     if gjk.proximity == Proximity::Intersecting {
         let budget = MAX_ITERATIONS - gjk.iterations;
-        let face = Epa::with_room().hit_face(a, b, &gjk.simplex, axis, budget);
+        let face = Epa::with_room().hit_face(&a, &b, &gjk.simplex, axis, budget);
         Distance::penetrating(
-            ContactFeatures::new(a, b, &face),
+            ContactFeatures::new(&a, &b, &face),
             gjk.iterations + face.iterations,
             face.converged,
         )
     } else {
-        Distance::separated(a, b, &gjk)
+        Distance::separated(&a, &b, &gjk)
     }
 }
 

@@ -306,7 +306,7 @@ struct Pushed {
 }
 
 /// With friction by Coulomb's law on displacements, but for what turns with the whole by `turn` (rad). What has passed the
-/// other is taken back to its side. Nothing if they do not touch. Along and across as `meet::part_pair`.
+/// other is taken back to its side. Nothing if they do not touch. Along and across as `pair::part_pair`.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn push(
     gap: Vec3,
