@@ -8,7 +8,7 @@
 #![allow(unsafe_code)]
 
 use std::any::Any;
-use std::cell::{RefCell, UnsafeCell};
+use std::cell::{Cell, RefCell, UnsafeCell};
 use std::hint::spin_loop;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering::SeqCst};
@@ -44,8 +44,19 @@ const PATIENCE: u32 = 2000;
 static TEAMS: AtomicUsize = AtomicUsize::new(0);
 
 thread_local! {
-    /// The team of what this thread is doing, unless it is in the midst of a job of it.
+    /// The team of what this thread is doing.
     static OWN: RefCell<Option<Arc<Board>>> = const { RefCell::new(None) };
+    /// Whether it is in the midst of a job. There it waits for nobody: the pool might hand it a service in its own team
+    /// meanwhile, which ends only when the job does.
+    static IS_BUSY: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Does its part of a job, and returns what it panicked with.
+fn take_part(job: &Job<'_>, number: usize) -> Result<(), Box<dyn Any + Send>> {
+    IS_BUSY.set(true);
+    let outcome = catch_unwind(AssertUnwindSafe(|| job(number)));
+    IS_BUSY.set(false);
+    outcome
 }
 
 impl Board {
@@ -69,7 +80,7 @@ impl Board {
         // SAFETY: the last job is closed, and nobody was inside after that (or there was none).
         unsafe { *self.job.get() = Some(job_of_any_time) };
         self.state.fetch_add(1, SeqCst);
-        let own = catch_unwind(AssertUnwindSafe(|| job(0)));
+        let own = take_part(job, 0);
         self.state.fetch_add(1, SeqCst);
         while self.inside.load(SeqCst) > 0 {
             spin_loop();
@@ -110,7 +121,7 @@ impl Board {
                     // gone before it has counted itself out.
                     let job = unsafe { *self.job.get() };
                     if let Some(job) = job
-                        && let Err(panic) = catch_unwind(AssertUnwindSafe(|| job(number)))
+                        && let Err(panic) = take_part(job, number)
                         && let Ok(mut first) = self.panic.lock()
                     {
                         first.get_or_insert(panic);
@@ -141,7 +152,7 @@ impl Drop for Gathering {
 
 /// Does `work` with a team of threads of the pool that wait for what [`for_each`] hands out.
 pub(super) fn gathered<R>(work: impl FnOnce() -> R) -> R {
-    if OWN.with_borrow(Option::is_some) {
+    if IS_BUSY.get() || OWN.with_borrow(Option::is_some) {
         return work();
     }
     let board = Arc::new(Board::new());
@@ -165,15 +176,16 @@ pub(super) fn gathered<R>(work: impl FnOnce() -> R) -> R {
     result
 }
 
-/// Calls `work` on every item, with the team if there is one, else with the pool.
+/// Calls `work` on every item: with the team if there is one, else with the pool; within a job by itself.
 pub(super) fn for_each<T: Send>(items: &mut [T], work: impl Fn(&mut T) + Send + Sync) {
-    // It cannot do two jobs at once.
-    let Some(board) = OWN.take() else {
-        items.par_iter_mut().for_each(work);
+    if IS_BUSY.get() {
+        items.iter_mut().for_each(work);
         return;
-    };
-    board.share(items, rayon::current_num_threads(), work);
-    OWN.set(Some(board));
+    }
+    match OWN.with_borrow(Option::clone) {
+        Some(board) => board.share(items, rayon::current_num_threads(), work),
+        None => items.par_iter_mut().for_each(work),
+    }
 }
 
 #[cfg(test)]
@@ -242,7 +254,7 @@ mod tests {
 
     #[test]
     #[cfg_attr(miri, ignore = "rayon itself breaks rules that Miri checks")]
-    fn work_within_a_job_goes_to_the_pool() {
+    fn work_within_a_job_is_done_on_the_spot() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().unwrap();
         let mut sums = [0; 5];
         pool.install(|| {
