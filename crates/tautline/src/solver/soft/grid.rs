@@ -57,14 +57,15 @@ impl Grid {
     }
 
     /// Relaxes every stick once, colour by colour: along rows, along columns, across cells. In this order a sweep
-    /// spreads alike in all directions; in the order of rows, two that alternate blow sheets up.
+    /// spreads alike in all directions; in the order of rows, two that alternate blow sheets up. The two colours across
+    /// cells are to take turns at being the last: what is always relaxed last always pushes, and a hung sheet trembles.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn sweep<L: Lanes>(
         &self,
         moving: &mut Moving<'_>,
         masses: &[f32],
         window: &Window,
-        weave: &Weave,
+        (weave, is_even): (&Weave, bool),
     ) {
         let [along, down, across] =
             [Spans::<L>::splat(weave[0]), Spans::splat(weave[1]), Spans::splat(weave[2])];
@@ -90,7 +91,7 @@ impl Grid {
                 relax_aligned(moving, masses, (place + half, place + half + stride, odd), down);
             }
         }
-        for parity in 0..2 {
+        for parity in if is_even { [0, 1] } else { [1, 0] } {
             for row in (top + parity..bottom - 1).step_by(2) {
                 let place = first + row * stride;
                 relax_aligned(moving, masses, (place, place + stride + half, from_even), across);

@@ -181,6 +181,7 @@ impl Kernel for Relax<'_> {
     fn run<L: Lanes>(self) {
         let SoftSolver { points, pieces, lightened, done, .. } = self.0;
         let mut pivots: Vec<Pivot<L>> = Vec::new();
+        let is_even = done.is_multiple_of(2);
         for piece in pieces {
             // They go by the length that a rope was laid out with.
             if piece.winding.is_none() {
@@ -190,9 +191,9 @@ impl Kernel for Relax<'_> {
             piece.elastic.sweep::<L>(points, lightened);
             match &mut piece.layout {
                 Layout::Sheet(sheet) => {
-                    sheet.pull_threads(points, is_held, done.is_multiple_of(2), &mut pivots);
+                    sheet.pull_threads(points, is_held, is_even, &mut pivots);
                     let whole = sheet.grid.whole();
-                    sheet.grid.sweep::<L>(&mut points.moving().0, lightened, &whole, &sheet.weave);
+                    sheet.grid.sweep::<L>(&mut points.moving().0, lightened, &whole, (&sheet.weave, is_even));
                 }
                 Layout::Loose(batches) => {
                     let sweeps = if piece.balloon.is_some() { gas::SWEEPS } else { 1 };
@@ -326,7 +327,7 @@ impl Kernel for SweepWindows<'_, '_> {
     fn run<L: Lanes>(self) {
         let SoftSolver { points, pieces, lightened, touches, strands, meetings, couples, done, .. } =
             self.solver;
-        let push = self.push;
+        let (push, is_even) = (self.push, done.is_multiple_of(2));
         for piece in pieces.iter_mut() {
             let Layout::Sheet(sheet) = &mut piece.layout else { continue };
             let Sheet { grid, weave, windows, .. } = &mut **sheet;
@@ -349,7 +350,7 @@ impl Kernel for SweepWindows<'_, '_> {
                     continue;
                 }
                 let (mut moving, masses) = points.moving();
-                grid.sweep::<L>(&mut moving, masses, window, &limits);
+                grid.sweep::<L>(&mut moving, masses, window, (&limits, is_even));
                 for &([a, b], distance) in pairs {
                     let parting = Parting { distance, most: 0.0, friction: 0.0, turn: Vec3::ZERO };
                     part_pair(points, [a as usize, b as usize], parting);
