@@ -95,6 +95,24 @@ impl Error {
     }
 }
 
+/// A message for people. What it quotes of a file may be as long as the file, or have characters that a terminal obeys.
+pub(crate) fn legible(message: impl Into<String>) -> String {
+    const LONGEST: usize = 400;
+    let message = message.into();
+    if message.len() <= LONGEST && !message.contains(char::is_control) {
+        return message;
+    }
+    let escaped = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
+    let count = message.chars().count();
+    if count <= LONGEST {
+        return message.chars().map(escaped).collect();
+    }
+    // What would be right stands at the end.
+    let head: String = message.chars().take(LONGEST / 4).map(escaped).collect();
+    let tail: String = message.chars().skip(count - LONGEST * 3 / 4).map(escaped).collect();
+    format!("{head}…{tail}")
+}
+
 /// Where a document stopped making sense, and why.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ParseError {

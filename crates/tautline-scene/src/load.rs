@@ -5,8 +5,10 @@ use std::path::Path;
 
 use tautline::mesh::TriMesh;
 
-use crate::document::{Body, Format, MeshFile, MeshSource, Scene, Shape, Surface, limits, parse};
-use crate::error::{Error, ParseError, Problem};
+use crate::document::{
+    Body, Format, MeshFile, MeshSource, Scene, Shape, Surface, limits, line_and_column, parse,
+};
+use crate::error::{Error, ParseError, Problem, legible};
 use crate::mesh_file::{self, Limits};
 
 /// Reads a scene file (JSON, JSON5 or TOML, by its extension), puts its mesh files in the place of their names
@@ -35,7 +37,11 @@ fn read_document(path: &Path) -> Result<Scene, Error> {
     let unknown = || Error::UnsupportedFormat { path: path.to_owned(), supported: ".json, .json5, .toml" };
     let format = Format::of_path(path).ok_or_else(unknown)?;
     let bytes = mesh_file::read_limited(path, limits::FILE_BYTES)?;
-    let text = String::from_utf8(bytes).map_err(|_| refusal(1, 1, "it is not UTF-8 text"))?;
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let (bytes, valid) = (error.as_bytes(), error.utf8_error().valid_up_to());
+        let (line, column) = line_and_column(&String::from_utf8_lossy(&bytes[..valid]), valid);
+        refusal(line, column, mesh_file::unmasked(bytes).unwrap_or("it is not UTF-8 text"))
+    })?;
     // Some editors begin a text with a byte order mark.
     parse(text.strip_prefix('\u{feff}').unwrap_or(&text), format).map_err(|error| match error {
         Error::Parse(mut error) => {
@@ -67,7 +73,7 @@ fn inline_mesh_files(scene: &mut Scene, folder: &Path) -> Vec<Problem> {
             }
             Err(message) => {
                 let path = format!("bodies[{i}].{field}.file.path");
-                problems.push(Problem { path, message: message.clone() });
+                problems.push(Problem { path, message: legible(&**message) });
             }
         }
         if vertices > limits::PARTICLES || triangles > limits::TRIANGLES || problems.len() == limits::PROBLEMS

@@ -204,6 +204,29 @@ fn what_cannot_be_read_is_refused_with_its_place_and_path() {
 }
 
 #[test]
+fn messages_quote_little_and_nothing_that_a_terminal_obeys() {
+    let long = "Ä".repeat(1 << 16);
+    for (text, part) in [
+        ("{\"tautline\": 1, \"X\": 1}", "`bounds`"),
+        ("{\"tautline\": 1, \"bodies\": [{\"rope\": {\"X\": 1}}]}", "unknown field"),
+        ("{\"tautline\": 1, \"seconds\": \"X\"}", "expected"),
+        (
+            "{\"tautline\": 1, \"joints\": [{\"body\": \"X\", \"kind\": {\"ball\": {}}}]}",
+            "no body has the name",
+        ),
+    ] {
+        for name in [&*long, "\\u001b[2J\\u0007"] {
+            let text = text.replace('X', name);
+            let message = parse(&text, Format::Json5)
+                .and_then(|scene| scene.check())
+                .map_or_else(|e| e.to_string(), |()| String::new());
+            let is_legible = message.chars().count() < 1000 && !message.contains(char::is_control);
+            assert!(is_legible && message.contains(part), "{message:?}");
+        }
+    }
+}
+
+#[test]
 fn problems_carry_the_path_of_their_field() {
     let cases = [
         (
@@ -385,6 +408,10 @@ fn what_is_too_large_is_refused_without_being_built() {
     refused_at_once("rope", || error(rope, Format::Json5).to_string());
     let cloths = format!("{{tautline: 1, bodies: [{}]}}", "{cloth: {}},".repeat(2501));
     refused_at_once("particles", || error(&cloths, Format::Json5).to_string());
+    for line in ["[[bodies]]\n", "#\n", "a.a=1\n", "a={}\n"] {
+        let toml = "tautline = 1\n".to_owned() + &line.repeat(200_000);
+        refused_at_once(line, || error(&toml, Format::Toml).to_string());
+    }
     let scene = Scene { bodies: vec![Body::HalfSpace(Default::default()); 50_001], ..Scene::default() };
     refused_at_once("list", || scene.check().unwrap_err().to_string());
 }

@@ -87,11 +87,16 @@ fn files_that_are_no_scenes_are_refused() {
     let (_folder, path) =
         folder(&[("a.json", "{"), ("a.yaml", ""), ("bom.json", "\u{feff}{\"tautline\": 1}")]);
     assert!(load(&path("bom.json")).is_ok());
-    std::fs::write(path("latin.json"), b"{\"name\": \"\xe9\"}").unwrap();
+    std::fs::write(path("latin.json"), b"{\"name\":\n \"\xe9\"}").unwrap();
+    std::fs::write(path("utf16.json"), b"\xff\xfe{\0}\0").unwrap();
     let error = load(&path("a.yaml")).unwrap_err();
     assert!(matches!(error, Error::UnsupportedFormat { supported: ".json, .json5, .toml", .. }), "{error}");
     assert!(error.to_string().contains("a.yaml: no known format"), "{error}");
-    for (name, expected) in [("a.json", "a.json:1:1: EOF"), ("latin.json", "UTF-8")] {
+    for (name, expected) in [
+        ("a.json", "a.json:1:1: EOF"),
+        ("latin.json", "latin.json:2:3: it is not UTF-8"),
+        ("utf16.json", "UTF-16"),
+    ] {
         let error = load(&path(name)).unwrap_err();
         assert!(matches!(error, Error::Parse(_)) && error.to_string().contains(expected), "{error}");
     }

@@ -46,7 +46,7 @@ type Case = (&'static str, &'static str, fn() -> Vec<u8>);
 
 const SIZE: usize = 8 << 20;
 
-const CASES: [Case; 17] = [
+const CASES: [Case; 24] = [
     ("vertices", "obj", || (lines("v 0 0 0\n") + "f 1 2 3").into()),
     ("triangles", "obj", || ("v 0 0 0\n".to_owned() + &lines("f 1 1 1\n")).into()),
     ("one face", "obj", || ("v 0 0 0\nf".to_owned() + &lines(" 1")).into()),
@@ -68,14 +68,31 @@ const CASES: [Case; 17] = [
     ("empty nodes", "gltf", || {
         format!("{{\"asset\":{{\"version\":\"2.0\"}},\"nodes\":[{}{{}}]}}", lines("{},")).into()
     }),
+    ("children", "gltf", || {
+        format!("{{\"asset\":{{\"version\":\"2.0\"}},\"nodes\":[{{\"children\":[{}1]}}]}}", lines("1,"))
+            .into()
+    }),
+    ("nodes of a scene", "gltf", || {
+        let nodes = format!("\"scenes\":[{{\"nodes\":[{}0]}}],\"nodes\":[{{}}]", lines("0,"));
+        format!("{{\"asset\":{{\"version\":\"2.0\"}},{nodes}}}").into()
+    }),
+    ("nodes that show a mesh", "gltf", || {
+        let nodes =
+            format!("\"nodes\":[{}{{}}],\"meshes\":[{{\"primitives\":[]}}]", lines("{\"mesh\":0  },"));
+        format!("{{\"asset\":{{\"version\":\"2.0\"}},{nodes}}}").into()
+    }),
     ("bodies", "json", || list("bodies", "{\"rope\":{}},")),
     ("cues", "json", || list("cues", "{},")),
     ("vertices of a scene", "json", || vertices("[0,0,0],")),
     ("brackets", "json", || vec![b'['; SIZE]),
     ("bodies in JSON5", "json5", || list("bodies", "{rope:{}},")),
     ("vertices in JSON5", "json5", || vertices("[0,0,0],")),
-    ("tables in TOML", "toml", || ("tautline=1\n".to_owned() + &lines("[[bodies]]\n")).into()),
-    ("numbers in TOML", "toml", || format!("tautline=1\nbodies=[{}]", lines("0,")).into()),
+    ("tables in TOML", "toml", || toml(&lines("[[bodies]]\n"))),
+    ("tables in less TOML", "toml", || toml(&less("[[bodies]]\nrope={}\n"))),
+    ("numbers in less TOML", "toml", || toml(&format!("bodies=[{}]", less("0,")))),
+    ("comments in less TOML", "toml", || toml(&less("#\n"))),
+    ("dots in less TOML", "toml", || toml(&less("a.a=1\n"))),
+    ("sparse TOML", "toml", || toml(&less(&format!("# {}\n[[bodies]]\nrope={{}}\n", "x".repeat(600))))),
 ];
 
 /// Reads a file as its extension says, and says what came of it.
@@ -104,6 +121,15 @@ fn vertices(vertex: &str) -> Vec<u8> {
 
 fn lines(line: &str) -> String {
     line.repeat(SIZE / line.len())
+}
+
+fn toml(text: &str) -> Vec<u8> {
+    format!("tautline=1\n{text}").into()
+}
+
+/// As much as TOML may be.
+fn less(line: &str) -> String {
+    line.repeat(2_000_000 / line.len())
 }
 
 /// Names the file that a run of this program is to read.

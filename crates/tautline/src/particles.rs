@@ -10,6 +10,15 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 
+/// How far out a particle may be, and how far it may move in a substep, in m. There `f32` tells places 65 km apart; a speed
+/// or an angular momentum of what is farther could be beyond all numbers.
+const FARTHEST: f32 = 1e12;
+
+/// Whether a particle is still somewhere: what is not finite is nowhere.
+pub(crate) fn is_within_reach(position: Vec3, displacement: Vec3) -> bool {
+    [position, displacement].iter().all(|vector| vector.abs().cmple(Vec3::splat(FARTHEST)).all())
+}
+
 /// All particles, body after body. A body owns one contiguous range; particle `i` of a body is vertex `i` of
 /// its geometry.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]

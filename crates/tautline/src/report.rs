@@ -15,13 +15,13 @@ pub struct StepReport {
     pub relaxations: u64,
     /// Bodies that are neither fixed nor asleep, after the step.
     pub awake_bodies: usize,
-    /// Bodies that turned non-finite and have been frozen.
+    /// Bodies that turned non-finite, or got farther than 1e12 m, and have been frozen.
     pub faults: Vec<Fault>,
     /// Time by phase, in s; zeros from [`World::step`](crate::World::step), which has no clock.
     pub seconds: PhaseSeconds,
 }
 
-/// A body frozen because one of its particles turned non-finite.
+/// A body frozen because one of its particles turned non-finite, or got farther than 1e12 m.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Fault {
     /// The body, which is fixed from now on.

@@ -6,7 +6,7 @@ use crate::body::{Body, Substance};
 use crate::collision::{Aabb, Candidate, Scene, find_pairs};
 use crate::error::{Error, within};
 use crate::parallel;
-use crate::particles::VerletStep;
+use crate::particles::{VerletStep, is_within_reach};
 use crate::report::{Clock, Fault, Phase, StepReport, Stopwatch};
 use crate::rest::{put_to_sleep, wake_touched};
 use crate::settings::ClothSolver;
@@ -21,7 +21,8 @@ impl World {
     /// Advances the world by `dt` seconds, in `settings.substeps` equal substeps.
     ///
     /// The same scene, settings and sequence of `dt` give the same bits on every platform, instruction set and
-    /// number of threads. It never panics; a body with a particle that becomes non-finite is frozen and reported.
+    /// number of threads. It never panics; a body with a particle that becomes non-finite, or gets
+    /// farther than 1e12 m, is frozen and reported.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] unless `dt` is from 1e-7 to 1 s; the world is as before.
@@ -134,7 +135,7 @@ impl World {
         self.contacts.finish(&self.rigid.presses(), &self.bodies, &self.slots);
     }
 
-    /// Writes the state of rigid bodies back to their particles. A body that is no longer finite is frozen where it was.
+    /// Writes the state of rigid bodies back to their particles. A body that has left all reach is frozen where it was.
     /// What joints did is added to what they did in earlier parts of the step, if there were any.
     fn write_rigid(&mut self, h: f32, has_parts: bool, report: &mut StepReport) {
         let Self { rigid, bodies, particles, settings, slots, .. } = self;
@@ -150,7 +151,7 @@ impl World {
         self.joints.keep(states, has_parts);
     }
 
-    /// Writes the state of cloth and rope back to their particles. A body that is no longer finite is frozen where it was.
+    /// Writes the state of cloth and rope back to their particles. A body that has left all reach is frozen where it was.
     fn finish_soft(&mut self, h: f32, report: &mut StepReport) {
         let Self { soft, bodies, particles, slots, .. } = self;
         for (index, particle) in soft.finish(bodies, particles, h) {
@@ -278,12 +279,12 @@ impl World {
         separate(more_contacts, &self.bodies, &mut self.particles, moved, limit)
     }
 
-    /// Freezes bodies with a non-finite particle where they were when the substep began.
+    /// Freezes bodies that have left all reach where they were when the substep began.
     fn contain_faults(&mut self, report: &mut StepReport) {
         let store = &mut self.particles;
         for (index, body) in self.bodies.iter_mut().enumerate().filter(|(_, body)| body.is_awake_matter()) {
             let range = body.particles.clone();
-            let sound = |i: usize| store.position[i].is_finite() && store.displacement[i].is_finite();
+            let sound = |i: usize| is_within_reach(store.position[i], store.displacement[i]);
             if let Some(particle) = range.clone().position(|i| !sound(i)) {
                 store.position[range.clone()].copy_from_slice(&self.scratch.start[range.clone()]);
                 store.displacement[range.clone()].fill(Vec3::ZERO);

@@ -59,10 +59,10 @@ fn summary(mesh: &TriMesh, report: &Report) -> String {
         "{} vertices, {} triangles, {} × {} × {}; {components}, {closed} closed, volume {}",
         report.vertices,
         report.triangles,
-        number(size.x),
-        number(size.y),
-        number(size.z),
-        number(volume as f32),
+        number(size.x.into()),
+        number(size.y.into()),
+        number(size.z.into()),
+        number(volume),
     )
 }
 
@@ -80,7 +80,8 @@ fn defects(mesh: &TriMesh, report: &Report) -> String {
         rows.push(vec![format!("{}: {}{more}", kind[0].name(), kind.len())]);
         for defect in kind.iter().take(NAMED) {
             let place = defect.place(mesh);
-            rows.push(vec![format!("  {defect}"), number(place.x), number(place.y), number(place.z)]);
+            let place = place.to_array().map(|coordinate| number(coordinate.into()));
+            rows.push([&[format!("  {defect}")], &place[..]].concat());
         }
         if kind.len() > NAMED {
             rows.push(vec![format!("  … and {} more", kind.len() - NAMED)]);
@@ -118,7 +119,7 @@ fn verdict(report: &Report) -> String {
 }
 
 /// Five digits.
-fn number(value: f32) -> String {
+fn number(value: f64) -> String {
     match value.abs() {
         0.0 => "0".to_owned(),
         1e-3..1e5 => {

@@ -3,7 +3,7 @@
 use std::fmt::Display;
 
 use super::limits;
-use crate::error::Problem;
+use crate::error::{Problem, legible};
 
 /// What a number must satisfy, and how that is said.
 #[derive(Clone, Copy)]
@@ -104,7 +104,7 @@ impl Checker {
     pub(super) fn problem(&mut self, field: impl Display, message: impl Into<String>) {
         if self.problems.len() < limits::PROBLEMS {
             let path = joined(&self.path, field);
-            self.problems.push(Problem { path, message: message.into() });
+            self.problems.push(Problem { path, message: legible(message) });
         } else {
             self.unlisted += 1;
         }

@@ -31,6 +31,7 @@ pub use cloth::{Cloth, Creep};
 pub use cue::Cue;
 pub use joint::{Joint, JointKind, Motor, Spring};
 pub use locate::locate;
+pub(crate) use parse::line_and_column;
 pub use parse::{Format, json_of_json5, parse, parse_part};
 pub use rigid::{Damping, Groups, Motion, Rigid};
 pub use settings::{BroadPhase, Ordering, Settings, Sleep, Solver, SquareRoot};

@@ -6,7 +6,7 @@ use serde::de::{DeserializeOwned, IgnoredAny};
 use serde::{Deserialize, Deserializer};
 
 use super::{Scene, limits, nesting};
-use crate::error::{Error, ParseError};
+use crate::error::{Error, ParseError, legible};
 
 /// A notation for documents.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,8 +34,12 @@ impl Format {
 /// The most bytes of JSON5 that become JSON: in between they take up to a hundred times as much memory.
 const JSON5_BYTES: usize = 16 << 20;
 
-/// The most bytes of TOML: its parser takes up to thirty times as much memory, for tables that are empty.
+/// The most bytes of TOML.
 const TOML_BYTES: usize = 2 << 20;
+
+/// The most signs in TOML that begin or end something: for each its parser takes up to 300 bytes of memory, which a text of
+/// nothing else would make a hundred times its size. Of the named scenes, the largest has 134 000.
+const TOML_SIGNS: usize = 200_000;
 
 /// Reads a document. Its values are not judged: that is [`Scene::check`].
 ///
@@ -126,10 +130,14 @@ fn message_json5(error: &json5::Error) -> String {
 }
 
 fn parse_toml(text: &str) -> Result<Scene, Error> {
-    if text.len() > TOML_BYTES {
-        let message =
-            format!("{} bytes of TOML are more than {TOML_BYTES}: as JSON it may be larger", text.len());
-        return Err(refusal("", (1, 1), message));
+    let signs = text.bytes().filter(|byte| b",=.[{#\n".contains(byte)).count();
+    for (count, what, most) in
+        [(text.len(), "bytes", TOML_BYTES), (signs, "commas, dots, lines …", TOML_SIGNS)]
+    {
+        if count > most {
+            let message = format!("{count} {what} are more than {most} in TOML: as JSON it may be larger");
+            return Err(refusal("", (1, 1), message));
+        }
     }
     let place = |error: &toml::de::Error| line_and_column(text, error.span().map_or(0, |span| span.start));
     let message = |error: &toml::de::Error| error.message().to_owned();
@@ -153,11 +161,12 @@ fn at_path<'de, Part: Deserialize<'de>, D: Deserializer<'de>>(
 }
 
 fn refusal(field: &str, (line, column): (usize, usize), message: String) -> Error {
-    Error::Parse(Box::new(ParseError { file: None, field: field.to_owned(), line, column, message }))
+    let (field, message) = (legible(field), legible(message));
+    Error::Parse(Box::new(ParseError { file: None, field, line, column, message }))
 }
 
 /// Line and column, from 1, of a byte; the column counts characters.
-pub(super) fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
+pub(crate) fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
     let before = text.get(..offset).unwrap_or(text);
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
     let column = before.get(line_start..).unwrap_or_default().chars().count() + 1;

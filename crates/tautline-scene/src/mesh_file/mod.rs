@@ -4,6 +4,7 @@
 //! groups, seams and facets, so that its surface closes; the place of what is wrong; and memory in proportion to the
 //! file, whatever its numbers claim.
 
+mod disguise;
 mod folder;
 mod gltf;
 mod limits;
@@ -24,6 +25,7 @@ use tautline::mesh::TriMesh;
 
 use crate::error::Error;
 
+pub(crate) use disguise::unmasked;
 pub(crate) use folder::read_limited;
 pub use limits::Limits;
 pub use notes::Note;
@@ -121,12 +123,13 @@ fn parse_beside(
     if bytes.len() as u64 > limits.file_bytes {
         return Err(Refusal::new(limits::too_many("bytes", bytes.len() as u64, limits.file_bytes)));
     }
-    match format {
-        Format::Obj => obj::parse(&String::from_utf8_lossy(bytes), limits),
+    let read = match format {
+        Format::Obj => obj::parse(&String::from_utf8_lossy(disguise::without_mark(bytes)), limits),
         Format::Stl => stl::parse(bytes, limits),
         Format::Ply => ply::parse(bytes, limits),
         Format::Gltf => gltf::parse(bytes, limits, folder),
-    }
+    };
+    read.map_err(|refusal| disguise::explain(bytes, refusal))
 }
 
 #[cfg(test)]

@@ -21,7 +21,8 @@ pub(super) fn parse(text: &str, limits: &Limits) -> Result<MeshFile, Refusal> {
     let positions = read_vertices(text, counts.vertices)?;
     let triangles = read_faces(text, &positions, counts.triangles)?;
     if triangles.is_empty() {
-        return Err(Refusal::new("it has no faces"));
+        let what = if positions.is_empty() { "no faces and no vertices: is it OBJ?" } else { "no faces" };
+        return Err(Refusal::new(format!("it has {what}")));
     }
     Ok(MeshFile { mesh: TriMesh { positions, triangles }, notes: counts.notes.into_vec() })
 }
@@ -104,6 +105,9 @@ fn vertex<'a>(mut words: impl Iterator<Item = &'a str>) -> Option<Vec3> {
 /// the last vertex before the face.
 fn corner(word: &str, preceding: usize, count: usize) -> Result<u32, String> {
     let vertex = word.split('/').next().unwrap_or_default();
+    if word.ends_with('\\') {
+        return Err("a face that goes on in the next line: write it in one".to_owned());
+    }
     let number: NonZeroI64 = vertex
         .parse()
         .map_err(|_| format!("{} is not a corner: the first vertex is 1, the last -1", quoted(word)))?;

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::error::legible;
+
 /// What is wrong with a mesh file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Refusal {
@@ -24,19 +26,19 @@ pub enum Place {
 
 impl Refusal {
     pub(super) fn new(message: impl Into<String>) -> Self {
-        Self { place: None, message: message.into() }
+        Self { place: None, message: legible(message) }
     }
 
     pub(super) fn at_line(line: usize, message: impl Into<String>) -> Self {
-        Self { place: Some(Place::Line(line)), message: message.into() }
+        Self { place: Some(Place::Line(line)), message: legible(message) }
     }
 
     pub(super) fn at_byte(byte: usize, message: impl Into<String>) -> Self {
-        Self { place: Some(Place::Byte(byte)), message: message.into() }
+        Self { place: Some(Place::Byte(byte)), message: legible(message) }
     }
 
     pub(super) fn at_field(field: impl Into<String>, message: impl Into<String>) -> Self {
-        Self { place: Some(Place::Field(field.into())), message: message.into() }
+        Self { place: Some(Place::Field(legible(field))), message: legible(message) }
     }
 
     /// The line, where the place is one.

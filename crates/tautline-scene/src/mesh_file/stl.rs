@@ -6,7 +6,7 @@ use tautline::Vec3;
 use tautline::mesh::TriMesh;
 
 use super::words::Words;
-use super::{Limits, MeshFile, Refusal, weld};
+use super::{Limits, MeshFile, Refusal, disguise, weld};
 
 /// Bytes before the triangles of a binary file: a comment of 80 and the number of triangles.
 const HEADER: usize = 84;
@@ -35,7 +35,7 @@ pub(super) fn read(mut file: impl Read, length: u64, limits: &Limits) -> Result<
     } else {
         bytes.reserve_exact((length as usize).saturating_sub(bytes.len()));
         file.take(limits.file_bytes).read_to_end(&mut bytes).map_err(unreadable)?;
-        parse_text(&bytes, limits)
+        parse_text(&bytes, limits).map_err(|refusal| disguise::explain(&bytes, refusal))
     }
 }
 
@@ -44,11 +44,15 @@ fn unreadable(error: io::Error) -> Refusal {
 }
 
 fn parse_text(bytes: &[u8], limits: &Limits) -> Result<MeshFile, Refusal> {
-    if bytes.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) {
-        return welded(read_text(&String::from_utf8_lossy(bytes), limits)?);
+    let text = disguise::without_mark(bytes);
+    if text.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) {
+        return welded(read_text(&String::from_utf8_lossy(text), limits)?);
     }
     Err(Refusal::new(match binary_length(bytes) {
-        Some(length) => format!("it announces {length} bytes of binary STL and has {}", bytes.len()),
+        Some(length) => format!(
+            "it announces {length} bytes of binary STL and has {}: it was cut off, or is no STL",
+            bytes.len()
+        ),
         None => "it is neither text that begins with `solid` nor long enough for binary STL".to_owned(),
     }))
 }

@@ -191,6 +191,31 @@ fn buffers_may_be_in_the_text_or_beside_it_but_nowhere_else() {
 }
 
 #[test]
+fn a_file_that_many_buffers_name_is_read_once() {
+    let folder = TempDir::new().unwrap();
+    fs::create_dir(folder.path().join("sub")).unwrap();
+    fs::write(folder.path().join("data.bin"), data()).unwrap();
+    let path = folder.path().join("a.gltf");
+    let read = |names: &[&str]| {
+        let mut document = document();
+        document["buffers"] = names.iter().map(|uri| json!({ "byteLength": 60, "uri": uri })).collect();
+        fs::write(&path, document.to_string()).unwrap();
+        let limits = Limits { file_bytes: 64_000, ..Limits::default() };
+        read_mesh(&path, &limits).map(|file| file.mesh).map_err(|error| error.to_string())
+    };
+    let names = ["data.bin", "./data.bin", "././data.bin", "d%61ta.bin"];
+    assert_closed(&read(&names).unwrap());
+    assert_closed(&read(&["data.bin"; 1000]).unwrap());
+    assert!(read(&["data.bin"; 1001]).unwrap_err().contains("buffers[1000].uri: more than 1000"));
+    fs::write(folder.path().join("data.bin"), [&data()[..], &[0; 63_000]].concat()).unwrap();
+    assert_closed(&read(&names).unwrap());
+    fs::write(folder.path().join("other.bin"), [0; 1000]).unwrap();
+    assert!(
+        read(&["data.bin", "other.bin"]).unwrap_err().contains("other.bin: 1000 bytes are more than 940")
+    );
+}
+
+#[test]
 fn malformed_documents_are_refused_with_the_field() {
     let cases = [
         ("/asset/version", json!("1.0"), "asset.version", "only 2.0"),

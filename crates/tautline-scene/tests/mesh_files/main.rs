@@ -151,6 +151,8 @@ fn malformed_files_are_refused_with_the_line() {
         ("a.obj", obj("f 1 2 99999999999"), Some(4), "99999999999"),
         ("a.obj", obj("f 1 2 -9223372036854775808"), Some(4), "-9223372036854775808"),
         ("a.obj", obj("f 1 2 x"), Some(4), "\"x\" is not a corner"),
+        ("a.obj", obj("f 1 2 \\\n3"), Some(4), "write it in one"),
+        ("a.obj", obj("f 1 2 3\\\n1"), Some(4), "write it in one"),
         ("a.obj", obj("f 1 2"), Some(4), "2 corners"),
         ("a.obj", obj("f"), Some(4), "0 corners"),
         ("a.obj", obj("v 0 nan 0"), Some(4), "finite"),
@@ -175,6 +177,40 @@ fn malformed_files_are_refused_with_the_line() {
         let (place, message) = refusal(name, &text);
         assert_eq!(place, line.map(Place::Line), "{text:?}: {message}");
         assert!(message.contains(part), "{text:?}: {message}");
+    }
+}
+
+#[test]
+fn a_byte_order_mark_is_no_part_of_the_text() {
+    let [ply, ..] = ply::pyramids();
+    for (name, bytes) in [
+        ("a.obj", CUBE.as_bytes().to_vec()),
+        ("a.stl", text_stl(&read("cube.obj", CUBE)).into_bytes()),
+        ("a.ply", ply),
+    ] {
+        let marked = [b"\xef\xbb\xbf", &bytes[..]].concat();
+        assert_eq!(parse(name, &marked).unwrap(), parse(name, &bytes).unwrap(), "{name}");
+    }
+}
+
+#[test]
+fn what_is_something_else_than_its_name_says_is_told() {
+    let utf_16 = |text: &str, bytes: fn(u16) -> [u8; 2]| -> Vec<u8> {
+        "\u{feff}".encode_utf16().chain(text.encode_utf16()).flat_map(bytes).collect()
+    };
+    for name in ["a.obj", "a.stl", "a.ply", "a.gltf", "a.glb"] {
+        for (bytes, part) in [
+            (utf_16(CUBE, u16::to_le_bytes), "save it as UTF-8"),
+            (utf_16(CUBE, u16::to_be_bytes), "save it as UTF-8"),
+            (b"\x1f\x8b\x08\0".repeat(50), "gzip"),
+            (b"PK\x03\x04".repeat(50), "ZIP"),
+            (CUBE.replace("\r\n", "\r").replace('\n', "\r").into_bytes(), "CR alone"),
+            (b"solid a\rendsolid a\r".to_vec(), "CR alone"),
+            (b"ply\rformat ascii 1.0\r".to_vec(), "CR alone"),
+        ] {
+            let message = refusal(name, &bytes).1;
+            assert!(message.contains(part), "{name}: {message}");
+        }
     }
 }
 

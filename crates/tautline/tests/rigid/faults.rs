@@ -138,6 +138,22 @@ fn extreme_but_allowed_numbers_leave_the_world_finite() {
     }
 }
 
+/// Where its place and its motion are finite, but its spin is beyond all numbers: found by random calls.
+#[test]
+fn a_body_that_gets_farther_than_anything_is_frozen_before_its_spin_is_no_number() {
+    for torque in [Vec3::ZERO, Vec3::Z * 1e9] {
+        let mut world = World::new(awake()).unwrap();
+        let body = add(&mut world, RigidBody::new(&ball(0.5)).mass(1e-20));
+        world.apply_force(body, Vec3::new(1e9, 3e8, 1e6)).unwrap();
+        world.apply_torque(body, torque).unwrap();
+        let report = world.step(DT).unwrap();
+        assert_eq!(report.faults.iter().map(|fault| fault.body).collect::<Vec<_>>(), [body]);
+        assert!(world.body(body).unwrap().angular_velocity().is_finite());
+        world.set_velocity(body, Vec3::X).unwrap();
+        World::restore(&world.snapshot()).expect("its numbers are numbers");
+    }
+}
+
 /// A body that leaves what f32 can hold is frozen and reported once; all else goes on as without it.
 #[test]
 fn a_body_that_turns_non_finite_is_frozen_and_disturbs_nothing() {

@@ -1,7 +1,8 @@
 //! The bytes that a glTF document refers to: in the file itself, in its text, or in files beside it.
 
-use std::borrow::Cow;
-use std::path::Path;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
 
 use super::super::{Limits, Refusal, folder};
 use super::base64;
@@ -9,8 +10,15 @@ use super::document::Document;
 
 /// The bytes of every buffer.
 pub(super) struct Buffers<'a> {
-    bytes: Vec<Cow<'a, [u8]>>,
+    bytes: Vec<Bytes<'a>>,
     outside: usize,
+}
+
+enum Bytes<'a> {
+    /// In the file.
+    Here(&'a [u8]),
+    /// In its text, or in a file beside it, of which several buffers may be.
+    Read(Rc<Vec<u8>>),
 }
 
 impl<'a> Buffers<'a> {
@@ -20,31 +28,30 @@ impl<'a> Buffers<'a> {
         folder: Option<&Path>,
         limits: &Limits,
     ) -> Result<Self, Refusal> {
-        let mut buffers = Self { bytes: Vec::with_capacity(document.buffers.len()), outside: 0 };
+        let mut beside = Beside { folder, left: limits.file_bytes, files: BTreeMap::new(), named: 0 };
+        let mut buffers = Vec::with_capacity(document.buffers.len());
         for (i, buffer) in document.buffers.iter().enumerate() {
             let refuse = |message: String| Refusal::at_field(format!("buffers[{i}].uri"), message);
-            let bytes: Cow<[u8]> = match (buffer.uri.as_deref(), binary) {
-                (None, Some(binary)) if i == 0 => Cow::Borrowed(binary),
+            let bytes = match (buffer.uri.as_deref(), binary) {
+                (None, Some(binary)) if i == 0 => Bytes::Here(binary),
                 (None, _) => return Err(refuse("it is missing, and the file has no binary part".into())),
-                (Some(uri), _) if uri.starts_with("data:") => base64::of_uri(uri).map_err(refuse)?.into(),
-                (Some(uri), _) => {
-                    let left = limits.file_bytes.saturating_sub(buffers.outside as u64);
-                    let bytes = beside(uri, folder, left).map_err(refuse)?;
-                    buffers.outside += bytes.len();
-                    bytes.into()
+                (Some(uri), _) if uri.starts_with("data:") => {
+                    Bytes::Read(Rc::new(base64::of_uri(uri).map_err(refuse)?))
                 }
+                (Some(uri), _) => Bytes::Read(beside.read(uri).map_err(refuse)?),
             };
-            if (bytes.len() as u64) < buffer.byte_length {
-                let message = format!("{}, but the buffer has {} bytes", buffer.byte_length, bytes.len());
+            let length = bytes.as_slice().len();
+            if (length as u64) < buffer.byte_length {
+                let message = format!("{}, but the buffer has {length} bytes", buffer.byte_length);
                 return Err(Refusal::at_field(format!("buffers[{i}].byteLength"), message));
             }
-            buffers.bytes.push(bytes);
+            buffers.push(bytes);
         }
-        Ok(buffers)
+        Ok(Self { bytes: buffers, outside: (limits.file_bytes - beside.left) as usize })
     }
 
     pub(super) fn get(&self, buffer: u32) -> Option<&[u8]> {
-        self.bytes.get(buffer as usize).map(|bytes| &**bytes)
+        self.bytes.get(buffer as usize).map(Bytes::as_slice)
     }
 
     /// Bytes that came from other files.
@@ -53,15 +60,49 @@ impl<'a> Buffers<'a> {
     }
 }
 
-/// The bytes of a file in the folder or below it.
-fn beside(uri: &str, folder: Option<&Path>, most: u64) -> Result<Vec<u8>, String> {
-    let folder = folder.ok_or("a buffer in another file, but there is only this one")?;
-    let path = unescaped(uri).ok_or("an escaped name that is not UTF-8")?;
-    if path.contains(':') {
-        return Err("an address: only files beside this one are read".to_owned());
+impl Bytes<'_> {
+    fn as_slice(&self) -> &[u8] {
+        match self {
+            Self::Here(bytes) => bytes,
+            Self::Read(bytes) => bytes,
+        }
     }
-    let file = folder::inside(folder, &path).map_err(|error| error.to_string())?;
-    folder::read_limited(&file, most).map_err(|error| error.to_string())
+}
+
+/// Buffers that may be in other files: finding one takes long beside reading its name.
+const MOST_NAMES: usize = 1000;
+
+/// Files in the folder or below it.
+struct Beside<'a> {
+    folder: Option<&'a Path>,
+    /// Bytes that may still be read.
+    left: u64,
+    /// Those read, each once, by their true paths.
+    files: BTreeMap<PathBuf, Rc<Vec<u8>>>,
+    /// How often one was named.
+    named: usize,
+}
+
+impl Beside<'_> {
+    fn read(&mut self, uri: &str) -> Result<Rc<Vec<u8>>, String> {
+        let folder = self.folder.ok_or("a buffer in another file, but there is only this one")?;
+        let path = unescaped(uri).ok_or("an escaped name that is not UTF-8")?;
+        if path.contains(':') {
+            return Err("an address: only files beside this one are read".to_owned());
+        }
+        self.named += 1;
+        if self.named > MOST_NAMES {
+            return Err(format!("more than {MOST_NAMES} buffers in other files"));
+        }
+        let file = folder::inside(folder, &path).map_err(|error| error.to_string())?;
+        if let Some(known) = self.files.get(&file) {
+            return Ok(Rc::clone(known));
+        }
+        let bytes = Rc::new(folder::read_limited(&file, self.left).map_err(|error| error.to_string())?);
+        self.left -= bytes.len() as u64;
+        self.files.insert(file, Rc::clone(&bytes));
+        Ok(bytes)
+    }
 }
 
 /// A name with `%20` for a space and so on as it is.

@@ -1,6 +1,7 @@
 //! The binary container of glTF: a header of 12 bytes, a chunk of JSON and one of binary data (glTF 2.0, section 4).
 
 use super::super::Refusal;
+use super::super::disguise::without_mark;
 
 /// The parts of a file.
 pub(super) struct Parts<'a> {
@@ -16,8 +17,7 @@ const BINARY: &[u8; 4] = b"BIN\0";
 /// Takes a binary file apart; any other is JSON as a whole.
 pub(super) fn parts(bytes: &[u8]) -> Result<Parts<'_>, Refusal> {
     if !bytes.starts_with(b"glTF") {
-        // Some editors begin a text with a byte order mark.
-        return Ok(Parts { json: bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes), binary: None });
+        return Ok(Parts { json: without_mark(bytes), binary: None });
     }
     let number =
         |at: usize| bytes.get(at..).and_then(<[u8]>::first_chunk).map(|&four| u32::from_le_bytes(four));

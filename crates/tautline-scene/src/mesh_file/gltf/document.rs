@@ -4,9 +4,10 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 
 use super::super::Refusal;
+use super::super::refusal::quoted;
 
 #[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
+#[serde(rename_all = "camelCase", expecting = "an object, that of a glTF document")]
 pub(super) struct Document {
     asset: Asset,
     #[serde(default)]
@@ -131,12 +132,14 @@ pub(super) fn parse(json: &[u8]) -> Result<Document, Refusal> {
     })?;
     deserializer.end().map_err(|error| Refusal::new(error.to_string()))?;
     if !document.asset.version.starts_with("2.") {
-        let message = format!("{:?} of glTF: only 2.0 is read", document.asset.version);
+        let message = format!("{} of glTF: only 2.0 is read", quoted(&document.asset.version));
         return Err(Refusal::at_field("asset.version", message));
     }
     if let Some(extension) = document.extensions_required.first() {
-        let message =
-            format!("{extension:?} is not known here: export without it, such as without compression");
+        let message = format!(
+            "{} is not known here: export without it, such as without compression",
+            quoted(extension)
+        );
         return Err(Refusal::at_field("extensionsRequired[0]", message));
     }
     Ok(document)

@@ -22,13 +22,12 @@ use accessor::Data;
 use buffer::Buffers;
 use container::Parts;
 use document::{Document, Primitive};
-use place::{Instance, instances};
+use place::{Instance, for_each_instance};
 
 /// Reads the bytes of a file, JSON or binary. A buffer with a name is looked for in the folder.
 pub(super) fn parse(bytes: &[u8], limits: &Limits, folder: Option<&Path>) -> Result<MeshFile, Refusal> {
     let Parts { json, binary } = container::parts(bytes)?;
     let document = document::parse(json)?;
-    let instances = instances(&document, limits)?;
     let buffers = Buffers::read(&document, binary, folder, limits)?;
     let mut assembly = Assembly {
         data: Data { document: &document, buffers: &buffers },
@@ -37,9 +36,7 @@ pub(super) fn parse(bytes: &[u8], limits: &Limits, folder: Option<&Path>) -> Res
         mesh: TriMesh::default(),
         points_and_lines: 0,
     };
-    for instance in &instances {
-        assembly.add(instance)?;
-    }
+    for_each_instance(&document, limits, |instance| assembly.add(instance))?;
     if assembly.mesh.triangles.is_empty() {
         return Err(Refusal::new("it has no triangles in its scene"));
     }

@@ -1,5 +1,7 @@
 //! Where the nodes of a scene put its meshes.
 
+use std::borrow::Cow;
+
 use tautline::DVec3;
 
 use super::super::{Limits, Refusal};
@@ -20,21 +22,29 @@ pub(super) struct Placement {
     origin: DVec3,
 }
 
-/// Every mesh of the scene, in the order of a walk from its roots; of a file without nodes, every mesh where it is.
-pub(super) fn instances(document: &Document, limits: &Limits) -> Result<Vec<Instance>, Refusal> {
+/// Visits every mesh of the scene where a node puts it, in the order of a walk from the roots; of a file without nodes,
+/// every mesh where it is.
+pub(super) fn for_each_instance(
+    document: &Document,
+    limits: &Limits,
+    mut visit: impl FnMut(&Instance) -> Result<(), Refusal>,
+) -> Result<(), Refusal> {
     if document.nodes.is_empty() {
         let still = |mesh| Instance { mesh, node: 0, placement: Placement::IDENTITY };
-        return Ok((0..document.meshes.len()).map(still).collect());
+        return (0..document.meshes.len()).try_for_each(|mesh| visit(&still(mesh)));
     }
-    let mut instances = Vec::new();
+    let roots = roots(document)?;
     let mut is_visited = vec![false; document.nodes.len()];
-    let mut waiting: Vec<(u32, Placement, usize)> =
-        roots(document)?.into_iter().rev().map(|node| (node, Placement::IDENTITY, 1)).collect();
-    while let Some((number, above, depth)) = waiting.pop() {
-        let field = format!("nodes[{number}]");
-        let refuse = |message: String| Refusal::at_field(&*field, message);
+    // A node of each level, and those of its children that are still to come: as long as the walk is deep, not as it is wide.
+    let mut path = vec![(Placement::IDENTITY, roots.iter())];
+    while let Some((above, children)) = path.last_mut() {
+        let Some(&number) = children.next() else {
+            path.pop();
+            continue;
+        };
+        let refuse = |message: String| Refusal::at_field(format!("nodes[{number}]"), message);
         let node = number as usize;
-        let Some((node, known)) = document.nodes.get(node).map(|known| (node, known)) else {
+        let Some(known) = document.nodes.get(node) else {
             return Err(refuse(format!("there are only {} nodes", document.nodes.len())));
         };
         if std::mem::replace(&mut is_visited[node], true) {
@@ -42,25 +52,25 @@ pub(super) fn instances(document: &Document, limits: &Limits) -> Result<Vec<Inst
                 "it comes twice: as a child of two nodes, of itself or of its own child".into(),
             ));
         }
-        if depth > limits.nesting {
+        let placement = above.then(&Placement::of(known));
+        if path.len() > limits.nesting {
             return Err(refuse(format!("nodes below each other more than {} deep", limits.nesting)));
         }
-        let placement = above.then(&Placement::of(known));
         if let Some(mesh) = known.mesh {
             let mesh = mesh as usize;
             if mesh >= document.meshes.len() {
                 let message = format!("mesh {mesh}, but there are only {}", document.meshes.len());
-                return Err(Refusal::at_field(field + ".mesh", message));
+                return Err(Refusal::at_field(format!("nodes[{number}].mesh"), message));
             }
-            instances.push(Instance { mesh, node, placement });
+            visit(&Instance { mesh, node, placement })?;
         }
-        waiting.extend(known.children.iter().rev().map(|&child| (child, placement, depth + 1)));
+        path.push((placement, known.children.iter()));
     }
-    Ok(instances)
+    Ok(())
 }
 
 /// The nodes that the scene begins with; without scenes, those that are no one's children.
-fn roots(document: &Document) -> Result<Vec<u32>, Refusal> {
+fn roots(document: &Document) -> Result<Cow<'_, [u32]>, Refusal> {
     if document.scenes.is_empty() {
         let mut is_child = vec![false; document.nodes.len()];
         for &child in document.nodes.iter().flat_map(|node| &node.children) {
@@ -74,7 +84,7 @@ fn roots(document: &Document) -> Result<Vec<u32>, Refusal> {
     let known = document.scenes.get(scene as usize).ok_or_else(|| {
         Refusal::at_field("scene", format!("{scene}, but there are only {} scenes", document.scenes.len()))
     })?;
-    Ok(known.nodes.clone())
+    Ok(Cow::Borrowed(&known.nodes))
 }
 
 impl Placement {

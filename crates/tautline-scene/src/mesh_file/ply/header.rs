@@ -1,6 +1,7 @@
 //! The header of a PLY file: which elements follow, and how they are written.
 
 use super::super::Refusal;
+use super::super::disguise::without_mark;
 use super::super::refusal::quoted;
 
 /// How the elements are written.
@@ -67,7 +68,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Header, Refusal> {
         length += line.len();
         let number = i + 1;
         let refuse = |message: String| Refusal::at_line(number, message);
-        let line = String::from_utf8_lossy(line);
+        let line = String::from_utf8_lossy(if i == 0 { without_mark(line) } else { line });
         let words: Vec<&str> = line.split_ascii_whitespace().take(6).collect();
         match words[..] {
             ["ply"] if i == 0 => {}

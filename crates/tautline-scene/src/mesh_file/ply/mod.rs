@@ -139,9 +139,12 @@ fn index(body: &mut impl Source, kind: Kind, vertices: usize) -> Result<u32, Ref
 impl Columns {
     fn of(header: &Header) -> Result<Self, Refusal> {
         let (vertices, vertex) = header.element("vertex")?;
-        let (faces, face) = header.element("face").map_err(|refusal| Refusal {
-            message: format!("{}: points alone are no surface", refusal.message),
-            ..refusal
+        let (faces, face) = header.element("face").map_err(|refusal| {
+            let hint = match header.element("tristrips") {
+                Ok(_) => "triangle strips are not read, write them as faces",
+                Err(_) => "points alone are no surface",
+            };
+            Refusal::new(format!("{}: {hint}", refusal.message))
         })?;
         let coordinate = |name: &str| {
             let found = vertex

@@ -7,9 +7,9 @@ use crate::mesh::tetrahedra::predicates::faces_cross;
 
 /// Pairs that are named one by one; a soup has more than anybody reads.
 const MOST_FOUND: usize = 1000;
-/// Pairs of boxes that are looked into, for every triangle: triangles heaped on each other have the square of their
-/// number, and good meshes have about twenty.
-const MOST_PAIRS: usize = 500;
+/// Boxes over that of a triangle that are looked at, for every triangle: triangles heaped on each other have the square of
+/// their number, and good meshes have about forty.
+const MOST_LOOKS: usize = 200;
 
 /// Pairs of triangles that cross.
 pub(super) struct Crossings {
@@ -30,14 +30,12 @@ pub(super) fn crossings(points: &[DVec3], triangles: &[[u32; 3]], included: &[bo
         .collect();
     let tree = BoxTree::new(&boxes);
     let mut pairs = Vec::new();
-    let mut looks_left = items.len().saturating_mul(MOST_PAIRS);
+    let mut looks_left = items.len().saturating_mul(MOST_LOOKS);
     for (a, bounds) in (0..).zip(&boxes).filter(|&(a, _)| items[a as usize] >= from) {
         tree.overlapping(bounds, |b| {
-            if b < a {
-                looks_left = looks_left.saturating_sub(1);
-                if cross(points, corners(a), corners(b)) {
-                    pairs.push([items[b as usize], items[a as usize]]);
-                }
+            looks_left = looks_left.saturating_sub(1);
+            if b < a && cross(points, corners(a), corners(b)) {
+                pairs.push([items[b as usize], items[a as usize]]);
             }
             looks_left > 0 && pairs.len() < MOST_FOUND
         });

@@ -8,7 +8,8 @@ use super::{Defect, Report};
 use crate::mesh::{TriMesh, exact};
 
 /// Names everything that is wrong with a mesh, in O(n log n). Any numbers will do: nothing about the mesh is taken for
-/// granted.
+/// granted. Where triangles are heaped on each other by the hundred, not all that cross are named, nor all components that
+/// are inside out.
 pub fn diagnose(mesh: &TriMesh) -> Report {
     let mut defects = Vec::new();
     if mesh.triangles.is_empty() {

@@ -14,6 +14,9 @@ pub(super) fn chains(edges: &[[u32; 2]], vertex_count: usize) -> Vec<Chain> {
     let mut at_vertex: Vec<(u32, u32)> =
         edges.iter().zip(0..).flat_map(|(&[a, b], edge)| [(a, edge), (b, edge)]).collect();
     at_vertex.sort_unstable();
+    // The first of a vertex's edges that may not have been walked along.
+    let mut next_at = vec![0; vertex_count];
+    at_vertex.iter().enumerate().rev().for_each(|(i, &(vertex, _))| next_at[vertex as usize] = i);
     let mut is_used = vec![false; edges.len()];
     // Where a vertex stands on the path, if it does.
     let mut place = vec![usize::MAX; vertex_count];
@@ -41,7 +44,7 @@ pub(super) fn chains(edges: &[[u32; 2]], vertex_count: usize) -> Vec<Chain> {
                     chains.push(Chain { vertices, is_loop: true });
                 }
             }
-            step = unused_at(&at_vertex, &is_used, path[path.len() - 1]);
+            step = unused_at(&at_vertex, &mut next_at, &is_used, path[path.len() - 1]);
         }
         path.iter().for_each(|&vertex| place[vertex as usize] = usize::MAX);
         if path.len() > 1 {
@@ -52,10 +55,15 @@ pub(super) fn chains(edges: &[[u32; 2]], vertex_count: usize) -> Vec<Chain> {
 }
 
 /// The lowest edge at a vertex that has not been walked along.
-fn unused_at(at_vertex: &[(u32, u32)], is_used: &[bool], vertex: u32) -> Option<u32> {
-    let start = at_vertex.partition_point(|&(at, _)| at < vertex);
-    let here = at_vertex[start..].iter().take_while(|&&(at, _)| at == vertex);
-    here.map(|&(_, edge)| edge).find(|&edge| !is_used[edge as usize])
+fn unused_at(at_vertex: &[(u32, u32)], next_at: &mut [usize], is_used: &[bool], vertex: u32) -> Option<u32> {
+    let next = &mut next_at[vertex as usize];
+    while let Some(&(_, edge)) = at_vertex.get(*next).filter(|&&(at, _)| at == vertex) {
+        if !is_used[edge as usize] {
+            return Some(edge);
+        }
+        *next += 1;
+    }
+    None
 }
 
 #[cfg(test)]

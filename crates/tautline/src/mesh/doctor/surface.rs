@@ -177,7 +177,8 @@ impl<'a> Surface<'a> {
         if self.orientation.is_flipped[triangle] { -volume } else { volume }
     }
 
-    /// A component inside an even number of others must face outwards, inside an odd number inwards.
+    /// A component inside an even number of others must face outwards, inside an odd number inwards. One whose number is
+    /// not known is taken as it is.
     fn inside_out(&self, components: &[Component], number: &[u32]) -> Vec<Defect> {
         let closed =
             |number: u32| components.get(number as usize).is_some_and(|component| component.is_closed);
@@ -189,21 +190,22 @@ impl<'a> Surface<'a> {
             .filter(|&number| closed(number))
             .map(|number| (vertex(components[number as usize].first_triangle), number))
             .collect();
-        let mut is_within = vec![false; components.len()];
+        let is_odd = |depth: u32| depth % 2 == 1;
+        let mut is_within = vec![Some(false); components.len()];
         for (&(_, number), depth) in asked.iter().zip(depths(&asked)) {
-            is_within[number as usize] = depth % 2 == 1;
+            is_within[number as usize] = depth.map(is_odd);
         }
         // What crosses another is not inside it as a whole: it faces outwards.
         let within = (0..self.triangles.len() as u32)
-            .filter(|&t| self.included[t as usize] && is_within[number[t as usize] as usize]);
+            .filter(|&t| self.included[t as usize] && is_within[number[t as usize] as usize] == Some(true));
         let asked: Vec<(u32, u32)> = within.map(|t| (vertex(t), number[t as usize])).collect();
         for (&(_, number), depth) in asked.iter().zip(depths(&asked)) {
-            is_within[number as usize] &= depth % 2 == 1;
+            let is_known = is_within[number as usize].zip(depth);
+            is_within[number as usize] = is_known.map(|(is_within, depth)| is_within && is_odd(depth));
         }
-        let wrong = components
-            .iter()
-            .zip(is_within)
-            .filter(|(component, is_within)| component.is_closed && (component.volume < 0.0) != *is_within);
+        let wrong = components.iter().zip(is_within).filter(|(component, is_within)| {
+            component.is_closed && is_within.is_some_and(|is_within| is_within != (component.volume < 0.0))
+        });
         wrong.map(|(component, _)| Defect::InsideOut { triangle: component.first_triangle }).collect()
     }
 }

@@ -40,7 +40,7 @@ use glam::Vec3;
 use crate::attachment::Attachments;
 use crate::body::{Body, Deformable, Substance};
 use crate::constraint::Stick;
-use crate::particles::Particles;
+use crate::particles::{Particles, is_within_reach};
 use crate::settings::Settings;
 use crate::simd::LANES;
 use crate::solver::substep::RigidSolver;
@@ -287,8 +287,8 @@ impl SoftSolver {
         self.pieces.iter().find(|piece| piece.body == body).map(|piece| piece.place(particle))
     }
 
-    /// Writes the particles. Returns the bodies that did not stay finite, which stay where they were, each with its first
-    /// particle that did not.
+    /// Writes the particles. Returns the bodies that have left all reach, which stay where they were, each with its first
+    /// particle that has.
     pub(crate) fn finish(
         &mut self,
         bodies: &mut [Body],
@@ -301,8 +301,7 @@ impl SoftSolver {
             let body = &mut bodies[piece.body];
             moved.clear();
             moved.extend(piece.in_order().map(|place| (self.points.at(place), self.points.motion(place))));
-            let is_lost =
-                |(position, displacement): &(Vec3, Vec3)| !(position.is_finite() && displacement.is_finite());
+            let is_lost = |&(position, displacement): &(Vec3, Vec3)| !is_within_reach(position, displacement);
             if let Some(number) = moved.iter().position(is_lost) {
                 lost.push((piece.body, number as u32));
                 continue;

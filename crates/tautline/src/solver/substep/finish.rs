@@ -11,7 +11,7 @@ use super::lineup::Lineup;
 use super::{Lost, RigidSolver, prepare};
 use crate::body::Body;
 use crate::parallel;
-use crate::particles::Particles;
+use crate::particles::{Particles, is_within_reach};
 use crate::settings::Settings;
 use crate::simd::{LANES, Row};
 
@@ -36,8 +36,8 @@ struct Run<'a> {
 }
 
 impl RigidSolver {
-    /// Writes the particles, and keeps the multipliers for the next step. A body that is not finite any more stays
-    /// where it was, and is told of.
+    /// Writes the particles, and keeps the multipliers for the next step. A body that has left all reach stays where it
+    /// was, and is told of.
     pub(crate) fn finish(
         &mut self,
         bodies: &mut [Body],
@@ -115,7 +115,7 @@ impl Run<'_> {
             };
             let moved: [[Vec3; 2]; 4] =
                 std::array::from_fn(|k| [vector(positions, k), vector(displacements, k)]);
-            if let Some(particle) = moved.iter().position(|[x, d]| !(x.is_finite() && d.is_finite())) {
+            if let Some(particle) = moved.iter().position(|&[x, d]| !is_within_reach(x, d)) {
                 self.lost.push(Lost { body: index, particle: particle as u32 });
                 continue;
             }

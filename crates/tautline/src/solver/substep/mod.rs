@@ -100,7 +100,7 @@ pub(crate) struct RigidSolver {
 /// Contacts are looked for this far apart at least, in m.
 const MARGIN: f32 = 0.005;
 
-/// A body that did not stay finite, and its first particle that did not.
+/// A body that has left all reach, and its first particle that has.
 pub(crate) struct Lost {
     pub(crate) body: usize,
     pub(crate) particle: u32,
