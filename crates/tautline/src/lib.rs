@@ -109,6 +109,7 @@ mod joint;
 mod measure;
 pub mod mesh;
 mod norm;
+mod order;
 mod parallel;
 mod particles;
 mod query;

@@ -8,6 +8,7 @@ use crate::constraint::{Angle, AngleLimit, Stick, angle_gradient};
 use crate::error::{Error, all_coordinates, coordinates, positive, within};
 use crate::geometry::sphere_tree::Feature;
 use crate::norm::Norm;
+use crate::order::PutInOrder;
 
 /// A rope to be added to a world.
 #[derive(Debug, Clone, PartialEq)]
@@ -312,7 +313,7 @@ impl Rope {
             return refuse(format!("points[{loose}]"), "is at the end of no segment".into());
         }
         let mut pairs: Vec<[u32; 2]> = self.segments.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
-        pairs.sort_unstable();
+        pairs.put_in_order();
         match pairs.windows(2).find(|two| two[0] == two[1]) {
             Some(two) => {
                 refuse("segments".into(), format!("two are between {} and {}", two[0][0], two[0][1]))

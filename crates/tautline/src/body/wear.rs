@@ -5,6 +5,7 @@ use glam::Vec3;
 use super::deformable::Deformable;
 use super::fabric::Creep;
 use crate::constraint::{Bending, Stick};
+use crate::order::PutInOrder;
 
 impl Deformable {
     /// Lets it tear and creep, after a step of `dt` (s). Returns whether anything has changed.
@@ -73,7 +74,7 @@ impl Deformable {
         let sorted = |a: u32, b: u32| [a.min(b), a.max(b)];
         let edges_of = |&[a, b, c]: &[u32; 3]| [sorted(a, b), sorted(b, c), sorted(c, a)];
         let mut edges: Vec<[u32; 2]> = self.triangles.iter().flat_map(edges_of).collect();
-        edges.sort_unstable();
+        edges.put_in_order();
         let is_edge = |stick: &Stick| edges.binary_search(&sorted(stick.a, stick.b)).is_ok();
         if let Some(compliances) =
             self.fabric.stretch.as_mut().and_then(|stretch| stretch.compliances.as_mut())

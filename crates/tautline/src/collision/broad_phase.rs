@@ -2,6 +2,7 @@
 
 use glam::{Mat3, Vec3};
 
+use crate::order::PutInOrder;
 use crate::settings::BroadPhase;
 
 /// An axis-aligned box.
@@ -52,7 +53,7 @@ pub(crate) fn find_pairs(candidates: &mut [Candidate], method: BroadPhase, pairs
         BroadPhase::AllPairs => all_pairs(candidates, pairs),
         BroadPhase::SortAndSweep => sort_and_sweep(candidates, pairs),
     }
-    pairs.sort_unstable();
+    pairs.put_in_order();
 }
 
 fn all_pairs(candidates: &[Candidate], pairs: &mut Vec<(u32, u32)>) {
@@ -66,7 +67,7 @@ fn all_pairs(candidates: &[Candidate], pairs: &mut Vec<(u32, u32)>) {
 fn sort_and_sweep(candidates: &mut [Candidate], pairs: &mut Vec<(u32, u32)>) {
     let axis = widest_axis(candidates);
     candidates
-        .sort_unstable_by(|a, b| a.bounds.low[axis].total_cmp(&b.bounds.low[axis]).then(a.body.cmp(&b.body)));
+        .put_in_order_by(|a, b| a.bounds.low[axis].total_cmp(&b.bounds.low[axis]).then(a.body.cmp(&b.body)));
     for (index, a) in candidates.iter().enumerate() {
         let reached = |b: &&Candidate| b.bounds.low[axis] <= a.bounds.high[axis];
         for b in candidates[index + 1..].iter().take_while(reached) {

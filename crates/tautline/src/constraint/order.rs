@@ -1,5 +1,6 @@
 //! The paper's ordered relaxation lists (6.2): a body's sticks by graph distance from a particle.
 
+use crate::order::PutInOrder;
 use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
@@ -65,7 +66,7 @@ fn append_list(particle: u32, particle_count: usize, sticks: &[Stick], entries: 
     let distance = stick_distances(particle, particle_count, sticks);
     let farthest = distance.iter().flatten().copied().max().unwrap_or(1);
     let mut nearest_first: Vec<u32> = (0..sticks.len() as u32).collect();
-    nearest_first.sort_by_key(|&stick| distance[stick as usize].unwrap_or(u32::MAX));
+    nearest_first.put_in_order_by_key(|&stick| distance[stick as usize].unwrap_or(u32::MAX));
     let occurrences = |stick: u32| distance[stick as usize].map_or(1, |k| (farthest / k).max(1));
     for round in 1..=farthest {
         entries.extend(nearest_first.iter().copied().filter(|&stick| occurrences(stick) >= round));

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{Joint, JointDescription, Kind, Motor, State};
 use crate::error::Error;
 use crate::norm::Norm;
+use crate::order::PutInOrder;
 use crate::slots::Slots;
 use crate::world::World;
 
@@ -44,7 +45,7 @@ impl Joints {
             Some([joint.body.min(base), joint.body.max(base)])
         };
         let mut pairs: Vec<[u32; 2]> = self.holding().filter_map(pair).collect();
-        pairs.sort_unstable();
+        pairs.put_in_order();
         pairs
     }
 

@@ -8,6 +8,7 @@
 use glam::Vec3;
 
 use super::{HalfEdgeMesh, TriMesh, exact};
+use crate::order::PutInOrder;
 use crate::{Error, MeshDefect};
 
 /// The smallest convex solid around some points.
@@ -171,7 +172,7 @@ impl<'a> Builder<'a> {
     fn add(&mut self, apex: u32, seen: u32) {
         let (mut horizon, orphans) = self.remove_visible(apex, seen);
         // The rim is one cycle: by their starts its edges find each other.
-        horizon.sort_unstable_by_key(|edge| edge.start);
+        horizon.put_in_order_by_key(|edge| edge.start);
         let first = self.faces.len() as u32;
         let starting_at = |vertex: u32| first + horizon.partition_point(|edge| edge.start < vertex) as u32;
         for (edge, face) in horizon.iter().zip(first..) {

@@ -6,6 +6,7 @@ use super::{QueryFilter, Selection, at_most};
 use crate::error::{Error, coordinates, within};
 use crate::geometry::query::{self, Ray, ray_to_half_space};
 use crate::norm::Norm;
+use crate::order::PutInOrder;
 use crate::world::{BodyHandle, World};
 
 /// Where a ray enters a body.
@@ -63,9 +64,9 @@ impl World {
             hits.push((body, hit));
             ray.max
         });
-        hits.sort_by(|(a, at), (b, bt)| a.cmp(b).then(at.t.total_cmp(&bt.t)));
+        hits.put_in_order_by(|(a, at), (b, bt)| a.cmp(b).then(at.t.total_cmp(&bt.t)));
         hits.dedup_by_key(|(body, _)| *body);
-        hits.sort_by(|(_, at), (_, bt)| at.t.total_cmp(&bt.t));
+        hits.put_in_order_by(|(_, at), (_, bt)| at.t.total_cmp(&bt.t));
         Ok(hits.into_iter().map(|(body, hit)| self.told(&ray, body, hit)).collect())
     }
 

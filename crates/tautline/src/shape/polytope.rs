@@ -6,6 +6,7 @@ use super::{Convex, Face};
 use crate::error::Error;
 use crate::mesh::{HalfEdgeMesh, TriMesh, convex_hull};
 use crate::norm::Norm;
+use crate::order::PutInOrder;
 
 /// Most corners of a polytope: faces name them by 16 bits.
 pub(super) const MAX_CORNERS: usize = u16::MAX as usize;
@@ -79,7 +80,7 @@ fn merge(mesh: &TriMesh) -> Result<Vec<Vec<u32>>, Error> {
         .faces()
         .map(|face| (area_vector(corners(face).into_iter()).length_squared(), face))
         .collect();
-    by_area.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    by_area.put_in_order_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     let mut merging = Merging {
         mesh,
         topology: &topology,

@@ -8,6 +8,7 @@ use super::{Convex, Part, Shape};
 use crate::error::Error;
 use crate::mesh::TriMesh;
 use crate::norm::Norm;
+use crate::order::PutInOrder;
 
 /// How many times the tolerance under which triangles become one face a face may be out of flatness.
 const SLACK: f64 = 4.0;
@@ -132,7 +133,7 @@ impl Convex {
                 after: corner(place + 2),
             }));
         }
-        sides.sort_unstable_by_key(|side| (side.start, side.end));
+        sides.put_in_order_by_key(|side| (side.start, side.end));
         sides
     }
 

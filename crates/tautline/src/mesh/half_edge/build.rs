@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{HalfEdgeMesh, next_in_face};
 use crate::mesh::{TriMesh, exact};
+use crate::order::PutInOrder;
 use crate::{Error, MeshDefect};
 
 /// More triangles could need more half-edges, boundary included, than a u32 counts.
@@ -164,7 +165,7 @@ fn check_duplicates(triangles: &[[u32; 3]]) -> Result<(), Error> {
     for (corners, _) in &mut sorted {
         corners.sort_unstable();
     }
-    sorted.sort_unstable();
+    sorted.put_in_order();
     let same =
         sorted.windows(2).filter(|pair| pair[0].0 == pair[1].0).map(|pair| (pair[1].1, pair[0].1)).min();
     match same {
@@ -183,7 +184,7 @@ fn pair_half_edges(triangles: &[[u32; 3]]) -> Result<(Vec<u32>, Vec<u32>), Error
             (a.min(b), a.max(b), half_edge)
         })
         .collect();
-    by_edge.sort_unstable();
+    by_edge.put_in_order();
     let mut twin = vec![u32::MAX; origin.len()];
     let mut edges = Vec::with_capacity(origin.len() / 2);
     for sharing in by_edge.chunk_by(|x, y| (x.0, x.1) == (y.0, y.1)) {

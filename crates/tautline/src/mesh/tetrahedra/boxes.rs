@@ -1,5 +1,6 @@
 //! Axis-aligned boxes, and the pairs of them that overlap.
 
+use crate::order::PutInOrder;
 use glam::DVec3;
 
 /// The smallest box around some points.
@@ -31,7 +32,7 @@ impl Aabb {
 pub(super) fn overlapping_pairs(a: &[Aabb], b: &[Aabb], mut visit: impl FnMut(usize, usize)) {
     let starts = |boxes: &[Aabb]| {
         let mut order: Vec<usize> = (0..boxes.len()).collect();
-        order.sort_by(|&i, &j| boxes[i].min.x.total_cmp(&boxes[j].min.x));
+        order.put_in_order_by(|&i, &j| boxes[i].min.x.total_cmp(&boxes[j].min.x));
         order
     };
     let (order_a, order_b) = (starts(a), starts(b));

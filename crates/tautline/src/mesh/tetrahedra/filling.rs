@@ -46,7 +46,9 @@ pub(super) fn close(faces: &mut BTreeSet<Face>, tet: &Tet) {
 
 impl Filling {
     pub(super) fn new<'a>(surface: impl Iterator<Item = &'a Face>) -> Filling {
-        Filling { tets: Vec::new(), owner: BTreeMap::new(), front: surface.copied().collect() }
+        let mut front = BTreeSet::new();
+        front.extend(surface);
+        Filling { tets: Vec::new(), owner: BTreeMap::new(), front }
     }
 
     pub(super) fn front(&self) -> &BTreeSet<Face> {
@@ -117,9 +119,10 @@ impl Filling {
 
     /// Corners of the cavity's tetrahedra that none of its faces has.
     pub(super) fn loose_vertices(&self, cavity: &Cavity) -> Vec<u32> {
-        let corners: BTreeSet<u32> = cavity.tets.iter().filter_map(|&t| self.tets[t]).flatten().collect();
         let bound = vertices(&cavity.faces);
-        corners.into_iter().filter(|v| bound.binary_search(v).is_err()).collect()
+        let mut corners = distinct(cavity.tets.iter().filter_map(|&t| self.tets[t]).flatten());
+        corners.retain(|v| bound.binary_search(v).is_err());
+        corners
     }
 
     /// The separate empty parts. Parts that lie within another's box without enclosing a volume of their
@@ -146,8 +149,15 @@ impl Filling {
 
 /// The corners of some faces, sorted.
 pub(super) fn vertices(faces: &BTreeSet<Face>) -> Vec<u32> {
-    let corners: BTreeSet<u32> = faces.iter().flatten().copied().collect();
-    corners.into_iter().collect()
+    distinct(faces.iter().flatten().copied())
+}
+
+/// Each number once, sorted.
+pub(super) fn distinct(numbers: impl Iterator<Item = u32>) -> Vec<u32> {
+    let mut distinct: Vec<u32> = numbers.collect();
+    distinct.sort_unstable();
+    distinct.dedup();
+    distinct
 }
 
 /// Faces that hang together by edges.

@@ -21,11 +21,12 @@ mod search;
 mod steiner;
 mod surface;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use glam::{DVec3, Vec3};
 
 use super::TriMesh;
+use crate::order::PutInOrder;
 use crate::{Error, MeshDefect};
 use filling::{Cavity, Filling};
 pub use lattice::lattice;
@@ -71,7 +72,9 @@ pub fn tetrahedralise(mesh: &TriMesh) -> Result<Tetrahedra, Error> {
     for cavity in filling.cavities(&points) {
         filling.replace(&cavity, advance::advance(&points, &cavity.faces, &[]));
     }
-    let (first_interior, surface) = (points.len(), BTreeSet::from_iter(surface));
+    let (first_interior, mut faces) = (points.len(), BTreeSet::new());
+    faces.extend(surface);
+    let surface = faces;
     if let Err(refusal) = fill_cavities(&mut points, &mut filling, &surface) {
         // A solid that is star-shaped as a whole can always be joined to one point, however thin its rays.
         points.truncate(first_interior);
@@ -98,7 +101,7 @@ fn fill_cavities(
         if cavities.is_empty() {
             return Ok(());
         }
-        cavities.sort_by_key(|cavity| cavity.faces.len());
+        cavities.put_in_order_by_key(|cavity| cavity.faces.len());
         let cavity = &cavities[stalled % cavities.len()];
         let rings = rings(filling, cavity);
         let searched = rings.iter().find_map(|r| Some((r.clone(), search::search(points, &r.faces)?)));
@@ -178,9 +181,9 @@ fn remove_interior_points(points: &[DVec3], filling: &mut Filling, first: usize)
 
 /// The result, with the interior points that are in use numbered anew.
 fn numbered(points: &[DVec3], mut tetrahedra: Vec<Tet>, first: usize) -> Tetrahedra {
-    let used: BTreeSet<u32> = tetrahedra.iter().flatten().copied().filter(|&v| v as usize >= first).collect();
-    let numbers: BTreeMap<u32, u32> = used.iter().copied().zip(first as u32..).collect();
-    tetrahedra.iter_mut().flatten().for_each(|v| *v = numbers.get(v).copied().unwrap_or(*v));
+    let used = filling::distinct(tetrahedra.iter().flatten().copied().filter(|&v| v as usize >= first));
+    let number = |v: u32| used.binary_search(&v).map_or(v, |rank| (first + rank) as u32);
+    tetrahedra.iter_mut().flatten().for_each(|v| *v = number(*v));
     let kept = points[..first].iter().chain(used.iter().map(|&v| &points[v as usize]));
     // Exact: every point came from an f32 one.
     Tetrahedra { points: kept.map(|p| p.as_vec3()).collect(), tetrahedra, interior_points: used.len() }

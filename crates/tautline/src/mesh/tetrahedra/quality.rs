@@ -8,6 +8,7 @@ use super::Tetrahedra;
 use super::predicates::{Face, canonical, face_of, faces_of, orient, reversed};
 use crate::mesh::TriMesh;
 use crate::norm::Norm;
+use crate::order::PutInOrder;
 
 /// Figures of how well shaped tetrahedra are: what is thin is badly conditioned, and stiffer or softer than it should be.
 /// Without any tetrahedra the means and the worst are not finite.
@@ -30,7 +31,7 @@ impl Tetrahedra {
         const PAIRS: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
         let ends = |tet: &[u32; 4]| PAIRS.map(|[i, j]| [tet[i].min(tet[j]), tet[i].max(tet[j])]);
         let mut edges: Vec<[u32; 2]> = self.tetrahedra.iter().flat_map(ends).collect();
-        edges.sort_unstable();
+        edges.put_in_order();
         edges.dedup();
         edges
     }
@@ -105,8 +106,8 @@ impl Tetrahedra {
         let mut boundary: Vec<Face> =
             owners.keys().copied().filter(|f| !owners.contains_key(&reversed(*f))).collect();
         let mut surface: Vec<Face> = mesh.triangles.iter().map(|&t| canonical(t)).collect();
-        boundary.sort_unstable();
-        surface.sort_unstable();
+        boundary.put_in_order();
+        surface.put_in_order();
         if boundary != surface {
             let stray = boundary.iter().find(|f| surface.binary_search(f).is_err());
             let lost = surface.iter().find(|f| boundary.binary_search(f).is_err());

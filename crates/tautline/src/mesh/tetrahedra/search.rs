@@ -1,6 +1,7 @@
 //! Filling a small cavity without new points, by exhaustive search: the face with the fewest choices
 //! first (after Liu, Chen and Sun, "Small polyhedron reconnection", 2007).
 
+use crate::order::PutInOrder;
 use std::collections::BTreeSet;
 
 use glam::DVec3;
@@ -52,7 +53,7 @@ impl Search<'_> {
             !face.contains(&v) && orient(self.points, face, v) < 0.0 && self.fits(&tet_on(face, v), faces)
         };
         let mut apexes: Vec<u32> = corners.iter().copied().filter(|&v| is_choice(v)).collect();
-        apexes.sort_by(|&a, &b| reach(self.points, face, a).total_cmp(&reach(self.points, face, b)));
+        apexes.put_in_order_by(|&a, &b| reach(self.points, face, a).total_cmp(&reach(self.points, face, b)));
         apexes
     }
 

@@ -6,6 +6,7 @@ use glam::DVec3;
 use super::boxes::{Aabb, overlapping_pairs};
 use super::predicates::{Face, canonical, faces_cross, widest_axis};
 use crate::mesh::TriMesh;
+use crate::order::PutInOrder;
 use crate::{Error, MeshDefect};
 
 /// The mesh in the form the algorithms use: exact points and canonical faces.
@@ -55,7 +56,7 @@ fn check_closed(triangles: &[Face]) -> Result<(), MeshDefect> {
     for (i, &[a, b, c]) in triangles.iter().enumerate() {
         edges.extend([[a, b], [b, c], [c, a]].map(|e| (e, i)));
     }
-    edges.sort_unstable();
+    edges.put_in_order();
     if let Some(pair) = edges.windows(2).find(|pair| pair[0].0 == pair[1].0) {
         let ([a, b], triangle) = pair[1];
         return Err(MeshDefect::FlippedTriangle { triangle, a, b });
@@ -70,7 +71,7 @@ fn check_closed(triangles: &[Face]) -> Result<(), MeshDefect> {
 fn check_distinct(points: &[DVec3]) -> Result<(), MeshDefect> {
     let place = |&i: &usize| (points[i] + DVec3::ZERO).to_array().map(f64::to_bits); // −0 becomes 0
     let mut order: Vec<usize> = (0..points.len()).collect();
-    order.sort_by_key(place);
+    order.put_in_order_by_key(place);
     match order.windows(2).find(|pair| place(&pair[0]) == place(&pair[1])) {
         Some(pair) => Err(MeshDefect::Tetrahedralisation(format!(
             "vertices {} and {} are in the same place; merge them if the surface continues there, else part them",

@@ -1,34 +1,46 @@
 //! From pieces to fewer.
 
-use std::collections::BTreeMap;
+use std::ops::Range;
 
 use super::piece::{Piece, excess};
 use crate::error::Error;
 
 /// Joins the two pieces that add the least excess, again and again, while there are too many or it is allowed.
 pub(super) fn join(pieces: Vec<Piece>, max_parts: usize, allowed: f64) -> Result<Vec<Piece>, Error> {
-    let mut pieces: BTreeMap<usize, Piece> = pieces.into_iter().enumerate().collect();
-    // What joining a pair adds, by the lower number, then the higher.
-    let mut added = BTreeMap::new();
-    let mut changed: Vec<usize> = pieces.keys().copied().collect();
+    // Two that are joined take the place of the first of them.
+    let mut pieces: Vec<Option<Piece>> = pieces.into_iter().map(Some).collect();
+    let mut added = Vec::new();
+    for number in 0..pieces.len() {
+        add_pairs(&pieces, number, 0..number, &mut added)?;
+    }
     loop {
-        for &number in &changed {
-            for (&other, piece) in pieces.iter().filter(|&(&other, _)| other != number) {
-                let (_, joint) = pieces[&number].joint_hull(piece)?;
-                let cost = joint - piece.excess - pieces[&number].excess;
-                added.insert([number.min(other), number.max(other)], cost);
-            }
-        }
-        let cheapest = added.iter().min_by(|a, b| a.1.total_cmp(b.1).then(a.0.cmp(b.0)));
-        let Some((&[a, b], &cost)) = cheapest else { break };
-        if pieces.len() <= max_parts && excess(pieces.values()) + cost > allowed {
+        let cheapest = added.iter().min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
+        let Some(&([a, b], cost)) = cheapest else { break };
+        let left = || pieces.iter().flatten();
+        if left().count() <= max_parts && excess(left()) + cost > allowed {
             break;
         }
-        if let (Some(lower), Some(higher)) = (pieces.remove(&a), pieces.remove(&b)) {
-            pieces.insert(a, lower.joined(higher)?);
+        if let (Some(lower), Some(higher)) = (pieces[a].take(), pieces[b].take()) {
+            pieces[a] = Some(lower.joined(higher)?);
         }
-        added.retain(|pair, _| !pair.contains(&b));
-        changed = vec![a];
+        added.retain(|(pair, _)| !pair.contains(&a) && !pair.contains(&b));
+        add_pairs(&pieces, a, 0..pieces.len(), &mut added)?;
     }
-    Ok(pieces.into_values().collect())
+    Ok(pieces.into_iter().flatten().collect())
+}
+
+/// Lists what joining a piece with each of the others adds, by the lower number, then the higher.
+fn add_pairs(
+    pieces: &[Option<Piece>],
+    number: usize,
+    others: Range<usize>,
+    added: &mut Vec<([usize; 2], f64)>,
+) -> Result<(), Error> {
+    let Some(piece) = &pieces[number] else { return Ok(()) };
+    for other in others.filter(|&other| other != number) {
+        let Some(partner) = &pieces[other] else { continue };
+        let (_, joint) = piece.joint_hull(partner)?;
+        added.push(([number.min(other), number.max(other)], joint - partner.excess - piece.excess));
+    }
+    Ok(())
 }

@@ -15,6 +15,7 @@ use super::spin::Couples;
 use super::tile::{Around, Bounds, MOST_EIGHTS, Tile, inside};
 use crate::constraint::Stick;
 use crate::norm::Norm;
+use crate::order::PutInOrder;
 use crate::simd::{LANES, Lanes, Vec3x8};
 use glam::DVec3;
 
@@ -166,7 +167,7 @@ impl Meetings {
     pub(super) fn link(&mut self, links: impl Iterator<Item = [u32; 2]>) {
         self.links.clear();
         self.links.extend(links.map(|[a, b]| [a.min(b), a.max(b)]));
-        self.links.sort_unstable();
+        self.links.put_in_order();
     }
 
     pub(super) fn is_empty(&self) -> bool {

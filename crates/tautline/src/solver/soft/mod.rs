@@ -40,6 +40,7 @@ use glam::Vec3;
 use crate::attachment::Attachments;
 use crate::body::{Body, Deformable, Substance};
 use crate::constraint::Stick;
+use crate::order::PutInOrder;
 use crate::particles::{Particles, is_within_reach};
 use crate::settings::Settings;
 use crate::simd::LANES;
@@ -207,7 +208,7 @@ impl SoftSolver {
                 piece.longest_motion = distance;
             }
         }
-        ropes.sort_by_key(|rope: &Rope| (rope.spans.len(), rope.start));
+        ropes.put_in_order_by_key(|rope: &Rope| (rope.spans.len(), rope.start));
         let mean = self.pieces.iter().map(|piece| piece.mean_inverse_mass).fold(0.0, f32::max);
         // What follows the end of a shorter rope would pull at it: only ropes of one length go side by side.
         let alike = ropes.chunk_by(|a, b| a.spans.len() == b.spans.len());

@@ -9,6 +9,7 @@ use super::points::Points;
 use super::spin::Couples;
 use super::tile::{Bounds, Tile};
 use crate::norm::Norm;
+use crate::order::PutInOrder;
 use crate::simd::{Lanes, Vec3x8};
 
 /// What is further apart than so many times as far as it is kept apart has not come through.
@@ -98,7 +99,7 @@ impl Strands {
     pub(super) fn link(&mut self, links: impl Iterator<Item = [u32; 2]>) {
         self.links.clear();
         self.links.extend(links.map(|[a, b]| [a.min(b), a.max(b)]));
-        self.links.sort_unstable();
+        self.links.put_in_order();
     }
 
     /// Lists what may touch while nothing moves by more than `margin` (m).
@@ -138,7 +139,7 @@ impl Strands {
     /// Pairs of segments: swept along x.
     fn list_segments(&mut self, boxes: &[Bounds], margin: f32, couples: &mut Couples) {
         let mut order: Vec<usize> = (0..boxes.len()).collect();
-        order.sort_by(|&a, &b| boxes[a].low.x.total_cmp(&boxes[b].low.x).then(a.cmp(&b)));
+        order.put_in_order_by(|&a, &b| boxes[a].low.x.total_cmp(&boxes[b].low.x).then(a.cmp(&b)));
         let mut pairs = Vec::new();
         for (rank, &first) in order.iter().enumerate() {
             let near = boxes[first].grown(margin);
@@ -152,7 +153,7 @@ impl Strands {
                 }
             }
         }
-        pairs.sort_unstable();
+        pairs.put_in_order();
         self.nears.extend(pairs.into_iter().map(|(a, b)| {
             let (a, b) = (&self.segments[a], &self.segments[b]);
             let friction = (a.friction * b.friction).sqrt();

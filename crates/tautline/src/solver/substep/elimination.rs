@@ -7,6 +7,7 @@
 //! they have bodies (Baraff 1996, Linear-time dynamics using Lagrange multipliers); loops fill in a few blocks more. f64,
 //! since heavy on light is ill-conditioned.
 
+use crate::order::PutInOrder;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A block, by rows.
@@ -54,7 +55,7 @@ impl Plan {
         let mut blocks = BTreeMap::new();
         let mut steps = Vec::with_capacity(order.len());
         for (node, mut neighbours) in order {
-            neighbours.sort_unstable_by_key(|&other| rank[other]);
+            neighbours.put_in_order_by_key(|&other| rank[other]);
             for &other in &neighbours {
                 let next = blocks.len() as u32;
                 blocks.insert((other, node), next);

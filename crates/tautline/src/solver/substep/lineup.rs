@@ -14,6 +14,7 @@ use std::ops::Range;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
+use crate::order::PutInOrder;
 use crate::simd::LANES;
 
 /// In a place where there is no body.
@@ -256,7 +257,7 @@ fn sort_along_widest_axis(entries: &mut [Entry]) {
     let (low, high) = bounds(entries);
     let size = high - low;
     let axis = (0..3).fold(0, |widest, axis| if size[axis] > size[widest] { axis } else { widest });
-    entries.sort_by(|a, b| a.center[axis].total_cmp(&b.center[axis]).then(a.body.cmp(&b.body)));
+    entries.put_in_order_by(|a, b| a.center[axis].total_cmp(&b.center[axis]).then(a.body.cmp(&b.body)));
 }
 
 fn sort_by_neighbourhood(entries: &mut [Entry]) {

@@ -14,6 +14,7 @@ use super::lineup::Lineup;
 use super::pairs::{Pair, Pairs};
 use crate::body::Body;
 use crate::norm::Norm;
+use crate::order::PutInOrder;
 use crate::simd::{LANES, Row};
 
 /// Bodies that have touched and are no further apart than this still do, in m.
@@ -129,7 +130,7 @@ impl Listener {
             (is_finite && press.approach_speed.is_finite()).then_some((heard.pair, press))
         };
         let mut presses: Vec<(u32, Press)> = self.heard.iter().filter_map(press).collect();
-        presses.sort_unstable_by_key(|(pair, press)| (press.bodies, *pair));
+        presses.put_in_order_by_key(|(pair, press)| (press.bodies, *pair));
         self.presses.extend(presses.into_iter().map(|(_, press)| press));
     }
 
@@ -137,7 +138,7 @@ impl Listener {
     fn presses(&self) -> Vec<Press> {
         let mut presses = self.presses.clone();
         // Stable: those of one pair of bodies stay in order.
-        presses.sort_by_key(|press| press.bodies);
+        presses.put_in_order_by_key(|press| press.bodies);
         let mut sums: Vec<Press> = Vec::new();
         for press in presses {
             match sums.last_mut().filter(|sum| sum.bodies == press.bodies) {

@@ -120,7 +120,7 @@ impl RigidSolver {
         });
         search.keys = tasks.into_iter().flat_map(|(_, keys)| keys).collect();
         // Two leavers have found each other.
-        search.keys.sort_unstable();
+        search.keys.sort();
         search.keys.dedup();
         pairs.replace_some(&is_leaver, &search.keys);
     }

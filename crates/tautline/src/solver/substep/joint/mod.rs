@@ -13,6 +13,7 @@ mod work;
 use std::collections::BTreeMap;
 
 use crate::joint::{Joint, Joints, State};
+use crate::order::PutInOrder;
 use crate::parallel;
 use crate::settings::Settings;
 
@@ -128,7 +129,7 @@ impl JointSolver {
             (work.index, State { force: state.force * scale, torque: state.torque * scale, ..state })
         };
         let mut states: Vec<(u32, State)> = works.map(state).collect();
-        states.sort_unstable_by_key(|(index, _)| *index);
+        states.put_in_order_by_key(|(index, _)| *index);
         states
     }
 }
@@ -141,7 +142,7 @@ fn assembly(
 ) -> Assembly {
     let ends = members.iter().flat_map(|(_, joint)| [joint.base, Some(joint.body)]).flatten();
     let mut bodies: Vec<u32> = ends.collect();
-    bodies.sort_unstable_by_key(|&body| (!is_solved(body), body));
+    bodies.put_in_order_by_key(|&body| (!is_solved(body), body));
     bodies.dedup();
     let solved = bodies.partition_point(|&body| is_solved(body));
     let rank = |body: u32| (!is_solved(body), body);

@@ -15,6 +15,7 @@ use super::super::joint::Sets;
 use super::super::lineup::{Lineup, NOBODY};
 use super::super::pairs::Pairs;
 use crate::norm::Norm;
+use crate::order::PutInOrder;
 
 /// The most bodies of a stack, and pairs of parts.
 const MOST_BODIES: usize = 64;
@@ -121,7 +122,7 @@ fn islands(groups: &Groups, solved: usize) -> Vec<Island> {
             islands[numbers[root]].touches.push((active.pair, [active.place_a, active.place_b]));
         }
     }
-    islands.iter_mut().for_each(|island| island.touches.sort_unstable());
+    islands.iter_mut().for_each(|island| island.touches.put_in_order());
     islands
 }
 

@@ -4,6 +4,7 @@
 
 use super::super::elimination::{Block, Matrix, Part, Plan, ZERO, transposed};
 use super::contact::{Contact, Hold, Point};
+use crate::order::PutInOrder;
 
 #[derive(Debug, Clone)]
 pub(super) struct System {
@@ -26,7 +27,7 @@ impl System {
             ((a.max(b) as usize) < solved).then_some([a.min(b), a.max(b)])
         };
         let mut edges: Vec<[u32; 2]> = contacts.iter().filter_map(inner).collect();
-        edges.sort_unstable();
+        edges.put_in_order();
         edges.dedup();
         let edge = |contact: &Contact| {
             inner(contact).map(|ends| edges.partition_point(|other| *other < ends) as u32)

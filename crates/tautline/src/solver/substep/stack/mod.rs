@@ -14,6 +14,7 @@ mod find;
 mod matrix;
 mod working_set;
 
+use crate::order::PutInOrder;
 use crate::parallel;
 
 use super::batch::NO_PAIR;
@@ -71,7 +72,7 @@ impl Stacks {
         }
         let mut lanes: Vec<(u32, Lane)> = Vec::new();
         groups.for_each_lane(0..NO_PAIR, |pair, lane| lanes.push((pair, lane)));
-        lanes.sort_unstable_by_key(|(pair, _)| *pair);
+        lanes.put_in_order_by_key(|(pair, _)| *pair);
         let stacks = found.iter().map(|found| Stack::new(found, &lanes, groups, crew));
         self.stacks.extend(stacks.filter(|stack| stack.points().all(|point| point.depth() <= DEEP)));
     }
