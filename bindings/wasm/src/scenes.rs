@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 use tautline_scene::Error;
-use tautline_scene::document::{Format, SCHEMA, Scene, Solver, json_of_json5, parse_part};
+use tautline_scene::document::{Format, Scene, Solver, json_of_json5, parse_part};
 use tautline_scene::registry::{self, NamedScene, Parameter};
 use wasm_bindgen::prelude::*;
 
@@ -39,12 +39,6 @@ pub fn document(name: &str, names: Vec<String>, values: &[f64]) -> Result<String
         parameters.set(name, value).map_err(Failure::from)?;
     }
     Ok(written(&scene.document(&parameters)))
-}
-
-/// The JSON schema of documents.
-#[wasm_bindgen]
-pub fn schema() -> String {
-    SCHEMA.to_owned()
 }
 
 /// What is wrong with a document, `[]` if nothing.

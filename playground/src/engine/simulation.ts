@@ -21,7 +21,7 @@ export class Simulation implements Engine {
 
   async hello(): Promise<Hello> {
     await this.ready;
-    return { version: version(), scenes: scenes(), schema: schema() };
+    return { version: version(), scenes: scenes(), schema: await schema() };
   }
 
   open(source: Source, solver: Solver | undefined): Opened {

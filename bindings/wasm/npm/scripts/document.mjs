@@ -1,9 +1,10 @@
-// Writes the types of scene documents from their schema.
+// Writes the schema of scene documents as a module, and their types from it.
 import { readFile, writeFile } from "node:fs/promises";
 import { compile } from "json-schema-to-typescript";
 
 const path = "../../../crates/tautline-scene/schema/scene.schema.json";
 const schema = JSON.parse(await readFile(path, "utf8"));
+await writeFile("src/schema.ts", `export const SCHEMA: object = ${JSON.stringify(schema)};\n`);
 
 /** What stands beside a reference would make another type of it: it goes around it. */
 function wrapReferences(node) {

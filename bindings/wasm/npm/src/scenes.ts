@@ -49,9 +49,9 @@ export function document(name: string, parameters: Readonly<Record<string, numbe
   return JSON.parse(asked(() => engine.document(String(name), names, Float64Array.from(values)))) as Scene;
 }
 
-/** The JSON schema of documents. */
-export function schema(): object {
-  return JSON.parse(asked(() => engine.schema())) as object;
+/** The JSON schema of documents: a file beside the engine, which is loaded when it is asked for. */
+export async function schema(): Promise<object> {
+  return (await import("./schema.js")).SCHEMA;
 }
 
 /**

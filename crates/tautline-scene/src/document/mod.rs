@@ -148,9 +148,6 @@ pub struct Bounds {
     pub max: [f32; 3],
 }
 
-/// What [`json_schema`] returns, as it is committed: without the code that makes it.
-pub const SCHEMA: &str = include_str!("../../schema/scene.schema.json");
-
 /// The JSON Schema of the format, indented, for editors and other programs.
 pub fn json_schema() -> String {
     let schema = schemars::schema_for!(Scene);
