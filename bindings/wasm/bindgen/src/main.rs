@@ -1,6 +1,8 @@
 //! `bindgen IN.wasm FOLDER`: writes `engine_bg.wasm` and its glue `engine.js`, `engine.d.ts`, which load in browsers,
 //! bundlers and Node alike. The library behind wasm-bindgen's own program, so that one lock file pins all of it.
 
+mod traps;
+
 use std::process::ExitCode;
 
 use wasm_bindgen_cli_support::Bindgen;
@@ -20,7 +22,11 @@ fn main() -> ExitCode {
         .remove_producers_section(true)
         .omit_default_module_path(false)
         .web(true)
-        .and_then(|bindgen| bindgen.generate(folder));
+        .and_then(|bindgen| bindgen.generate_output())
+        .and_then(|mut output| {
+            traps::trap(output.wasm_mut());
+            output.emit(folder)
+        });
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
