@@ -174,21 +174,24 @@ fn clear_places(module: &mut Module, cut: &BTreeSet<u32>) {
         };
         let base = start as u32;
         used.extend((0..data.value.len() / 4).filter_map(|index| word(&data.value, 4 * index)));
+        let mut cleared = Vec::new();
         for &address in cut.difference(&used.iter().copied().collect()) {
             let Some(at) = address.checked_sub(base) else { continue };
-            if let Some(place) = place_in_source(&data.value, at as usize, base) {
-                data.value[place].fill(0);
+            if let Some(ranges) = place_in_source(&data.value, at as usize, base) {
+                cleared.extend(ranges);
             }
         }
+        cleared.into_iter().for_each(|range| data.value[range].fill(0));
     }
 }
 
-/// The range of a `core::panic::Location`: address and length of a file's name, line, column.
-fn place_in_source(bytes: &[u8], at: usize, base: u32) -> Option<Range<usize>> {
+/// The ranges of a `core::panic::Location` and of the name in it: address and length of a file's name, line, column.
+fn place_in_source(bytes: &[u8], at: usize, base: u32) -> Option<[Range<usize>; 2]> {
     let [name, length, line, column] = [0, 4, 8, 12].map(|offset| word(bytes, at + offset));
-    let (start, length) = (name?.checked_sub(base)? as usize, length? as usize);
-    let name = bytes.get(start..start.checked_add(length)?)?;
-    (name.ends_with(b".rs") && line? > 0 && column? > 0).then_some(at..at + 16)
+    let start = name?.checked_sub(base)? as usize;
+    let name = start..start.checked_add(length? as usize)?;
+    let is_place = bytes.get(name.clone())?.ends_with(b".rs") && line? > 0 && column? > 0;
+    is_place.then_some([at..at + 16, name])
 }
 
 fn word(bytes: &[u8], at: usize) -> Option<u32> {
