@@ -3,23 +3,20 @@
 //! In a browser nobody hears what a panic says: the instance traps, and the package says that it can no longer be used.
 //! So what does nothing but lead to a panic need not be sent: messages, where they are from, and how they are written.
 
-use std::collections::{BTreeSet, HashMap, HashSet};
-use std::ops::Range;
+use std::collections::{HashMap, HashSet};
 
-use walrus::ir::{Call, Const, Instr, InstrSeqId, Unreachable, Value};
-use walrus::{ConstExpr, DataKind, FunctionId, FunctionKind, LocalFunction, Module};
+use walrus::ir::{Call, Instr, InstrSeqId, Unreachable};
+use walrus::{FunctionId, FunctionKind, LocalFunction, Module};
 
-/// Makes traps of all calls that end in a trap, and clears what only they refer to.
+/// Makes traps of all calls that end in a trap, and leaves out what only they need.
 pub(crate) fn trap(module: &mut Module) {
     let doomed = doomed(module);
-    let mut cut = BTreeSet::new();
     for (_, function) in module.funcs.iter_local_mut() {
         for sequence in sequences(function) {
-            cut_short(function, sequence, &doomed, &mut cut);
+            cut_short(function, sequence, &doomed);
         }
     }
     walrus::passes::gc::run(module);
-    clear_places(module, &cut);
 }
 
 /// The functions that never return and call nothing outside: all that they can do is trap.
@@ -115,13 +112,8 @@ impl<'a> Ways<'a> {
     }
 }
 
-/// Ends a sequence where its doom is certain, and notes the constants that are gone.
-fn cut_short(
-    function: &mut LocalFunction,
-    sequence: InstrSeqId,
-    doomed: &HashSet<FunctionId>,
-    cut: &mut BTreeSet<u32>,
-) {
+/// Ends a sequence where its doom is certain.
+fn cut_short(function: &mut LocalFunction, sequence: InstrSeqId, doomed: &HashSet<FunctionId>) {
     let instructions = &mut function.block_mut(sequence).instrs;
     let is_end = |instruction: &Instr| match instruction {
         Instr::Unreachable(_) => true,
@@ -130,7 +122,6 @@ fn cut_short(
     let Some(end) = instructions.iter().position(|(instruction, _)| is_end(instruction)) else { return };
     let stays = |(instruction, _): &(Instr, _)| leads_elsewhere(instruction);
     let start = instructions[..end].iter().rposition(stays).map_or(0, |last| last + 1);
-    cut.extend(instructions[start..end].iter().filter_map(|(instruction, _)| number(instruction)));
     let place = instructions[end].1;
     instructions.truncate(start);
     instructions.push((Instr::Unreachable(Unreachable {}), place));
@@ -156,58 +147,9 @@ fn leads_elsewhere(instruction: &Instr) -> bool {
     )
 }
 
-/// Clears the places in the source (file, line and column) that panics would have named: nothing refers to them any more.
-fn clear_places(module: &mut Module, cut: &BTreeSet<u32>) {
-    let mut used = HashSet::new();
-    for (_, function) in module.funcs.iter_local() {
-        for sequence in sequences(function) {
-            used.extend(
-                function.block(sequence).instrs.iter().filter_map(|(instruction, _)| number(instruction)),
-            );
-        }
-    }
-    let segments: Vec<_> = module.data.iter().map(|data| data.id()).collect();
-    for segment in segments {
-        let data = module.data.get_mut(segment);
-        let DataKind::Active { offset: ConstExpr::Value(Value::I32(start)), .. } = data.kind else {
-            continue;
-        };
-        let base = start as u32;
-        used.extend((0..data.value.len() / 4).filter_map(|index| word(&data.value, 4 * index)));
-        let mut cleared = Vec::new();
-        for &address in cut.difference(&used.iter().copied().collect()) {
-            let Some(at) = address.checked_sub(base) else { continue };
-            if let Some(ranges) = place_in_source(&data.value, at as usize, base) {
-                cleared.extend(ranges);
-            }
-        }
-        cleared.into_iter().for_each(|range| data.value[range].fill(0));
-    }
-}
-
-/// The ranges of a `core::panic::Location` and of the name in it: address and length of a file's name, line, column.
-fn place_in_source(bytes: &[u8], at: usize, base: u32) -> Option<[Range<usize>; 2]> {
-    let [name, length, line, column] = [0, 4, 8, 12].map(|offset| word(bytes, at + offset));
-    let start = name?.checked_sub(base)? as usize;
-    let name = start..start.checked_add(length? as usize)?;
-    let is_place = bytes.get(name.clone())?.ends_with(b".rs") && line? > 0 && column? > 0;
-    is_place.then_some([at..at + 16, name])
-}
-
-fn word(bytes: &[u8], at: usize) -> Option<u32> {
-    bytes.get(at..at.checked_add(4)?)?.try_into().ok().map(u32::from_le_bytes)
-}
-
 fn called(instruction: &Instr) -> Option<FunctionId> {
     match instruction {
         Instr::Call(Call { func }) | Instr::ReturnCall(walrus::ir::ReturnCall { func }) => Some(*func),
-        _ => None,
-    }
-}
-
-fn number(instruction: &Instr) -> Option<u32> {
-    match instruction {
-        Instr::Const(Const { value: Value::I32(value) }) => Some(*value as u32),
         _ => None,
     }
 }
