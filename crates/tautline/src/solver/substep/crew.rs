@@ -61,6 +61,9 @@ pub(super) struct Track {
     pub(super) turning: u32,
 }
 
+/// Among so many blocks that differ one of the same bodies is looked for.
+const LAST_KNOWN: usize = 8;
+
 /// Everything by place.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Crew {
@@ -98,7 +101,11 @@ impl Crew {
     /// The bodies where they stand; nothing is read of where they are yet.
     pub(super) fn new(lineup: &Lineup, bodies: &[Body]) -> Self {
         let count = lineup.places.len();
-        let block = |places: &[u32]| new_block(places, bodies);
+        let mut constants: Vec<Arc<Constants>> = Vec::new();
+        let block = |places: &[u32]| {
+            let constants = shared(new_constants(places, bodies), &mut constants);
+            Block { constants, ..Block::default() }
+        };
         let shape = |&place: &u32| rigid_at(place, bodies).map(|(_, rigid)| Arc::clone(&rigid.shape));
         let shapes: Vec<_> = lineup.places.iter().map(shape).collect();
         let solid = shapes.iter().flatten().filter(|shape| shape.is_solid());
@@ -282,7 +289,7 @@ fn rigid_at(place: u32, bodies: &[Body]) -> Option<(&Body, &Rigid)> {
     }
 }
 
-fn new_block(places: &[u32], bodies: &[Body]) -> Block {
+fn new_constants(places: &[u32], bodies: &[Body]) -> Constants {
     let one = Row([1.0; LANES]);
     let mut constants = Constants {
         spread: [one; 3],
@@ -310,7 +317,16 @@ fn new_block(places: &[u32], bodies: &[Body]) -> Block {
             constants.damping[1].0[lane] = rigid.traits.angular_damping;
         }
     }
-    Block { constants, ..Block::default() }
+    constants
+}
+
+/// The same constants out of those known last, or else these, which are then known.
+fn shared(constants: Constants, known: &mut Vec<Arc<Constants>>) -> Arc<Constants> {
+    if let Some(same) = known.iter().rev().take(LAST_KNOWN).find(|other| ***other == constants) {
+        return Arc::clone(same);
+    }
+    known.push(Arc::new(constants));
+    Arc::clone(&known[known.len() - 1])
 }
 
 #[inline(always)]
