@@ -65,7 +65,7 @@ impl RigidSolver {
     }
 
     fn keep_multipliers(&mut self) {
-        self.groups.iter_mut().filter(|group| !group.active.is_empty()).for_each(Group::forget_blows);
+        self.groups.iter_mut().filter(|group| !group.is_empty()).for_each(Group::forget_blows);
         let (groups, details) = (&self.groups, &mut self.pairs.details);
         let worthwhile = parallel::is_worthwhile(details.len(), WORTHWHILE);
         // Every run goes through all batches, so there are not more than threads.

@@ -51,6 +51,12 @@ impl Poses<'_> {
     }
 }
 
+/// The restitution and the rolling friction (m) of eight pairs.
+pub(super) struct Rare {
+    pub(super) restitution: Row,
+    pub(super) rolling_friction: Row,
+}
+
 /// The contacts of a batch.
 #[inline(always)]
 fn held<'a>(batch: &Batch, contact_of: impl Fn(u32) -> Option<&'a Held>) -> [Option<&'a Held>; LANES] {
@@ -80,16 +86,15 @@ fn rows_of<'a>(held: &[Option<&'a Held>; LANES], k: usize) -> ([&'a Row; LANES],
     (anchors, friction)
 }
 
-/// Fills the rows of a batch, and adds what its multipliers do to `accumulated`.
+/// Fills the rows of a batch, and adds what its multipliers do to `accumulated`. Returns what only few batches have any of.
 #[inline(always)]
 pub(super) fn fill<'a, L: Lanes>(
     batch: &Batch,
     contact_of: impl Fn(u32) -> Option<&'a Held>,
-    poses: &Poses<'_>,
+    [a, b]: &[Frames<L>; 2],
     (header, points): (&mut HeaderRows, &mut [PointRows]),
     accumulated: &mut [Row],
-) {
-    let (a, b) = (poses.gather::<L>(&batch.place_a), poses.gather::<L>(&batch.place_b));
+) -> Rare {
     let held = held(batch, contact_of);
     let shared = L::gather(headers_of(&held));
     let normal = Vec3x8::new(shared[0], shared[1], shared[2]);
@@ -98,12 +103,13 @@ pub(super) fn fill<'a, L: Lanes>(
     directions[1].store(&mut header.tangents[0]);
     directions[2].store(&mut header.tangents[1]);
     shared[3].store(&mut header.friction);
-    shared[4].store(&mut header.restitution);
-    shared[5].store(&mut header.rolling_friction);
     header.is_soft = Row([1.0; LANES]);
+    let mut rare = Rare { restitution: Row::ZERO, rolling_friction: Row::ZERO };
+    shared[4].store(&mut rare.restitution);
+    shared[5].store(&mut rare.rolling_friction);
     for lane in (0..LANES).filter(|lane| batch.stacked >> lane & 1 != 0) {
         // Stacks are too slow to bounce.
-        header.restitution.0[lane] = 0.0;
+        rare.restitution.0[lane] = 0.0;
     }
 
     let mut sum_a = L::gather(rows_at(accumulated, &batch.a));
@@ -155,6 +161,7 @@ pub(super) fn fill<'a, L: Lanes>(
     shift(&mut sum_b, impulse, b.inverse_mass);
     L::scatter(sum_a, accumulated, &batch.a);
     L::scatter(sum_b, accumulated, &batch.b);
+    rare
 }
 
 /// Further than anything reaches in a step, in m.
