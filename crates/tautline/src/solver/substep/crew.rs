@@ -238,8 +238,8 @@ impl Crew {
         self.for_each(lineup, lineup.stripes(), |squad| run(instructions, Calm { squad }));
     }
 
-    /// The particles of eight bodies as they are now: positions and displacements.
-    pub(super) fn particles_of(&self, block: usize, instructions: Instructions) -> [ParticleRows; 2] {
+    /// The particles of eight bodies as they are now.
+    pub(super) fn particles_of(&self, block: usize, instructions: Instructions) -> Written {
         let rows = &self.velocities[block * LANES..(block + 1) * LANES];
         run(instructions, Write { block: &self.blocks[block], rows })
     }
@@ -417,19 +417,40 @@ impl Kernel for Calm<'_, '_> {
     }
 }
 
+/// The particles of eight bodies.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Written {
+    pub(super) positions: ParticleRows,
+    pub(super) displacements: ParticleRows,
+    /// Bits of the lanes in which all numbers are finite.
+    pub(super) finite: u32,
+}
+
+impl Written {
+    pub(super) const NOTHING: Self =
+        Self { positions: [Row::ZERO; 12], displacements: [Row::ZERO; 12], finite: 0 };
+}
+
 struct Write<'a> {
     block: &'a Block,
     rows: &'a [Row],
 }
 
 impl Kernel for Write<'_> {
-    type Output = [ParticleRows; 2];
+    type Output = Written;
 
     #[inline(always)]
-    fn run<L: Lanes>(self) -> Self::Output {
-        let mut particles = [[Row::ZERO; 12]; 2];
-        let [positions, displacements] = &mut particles;
+    fn run<L: Lanes>(self) -> Written {
+        let mut written = Written::NOTHING;
+        let Written { positions, displacements, finite } = &mut written;
         self.block.write::<L>(&load(self.rows), positions, displacements);
-        particles
+        let zero = L::splat(0.0);
+        let mut sum = zero;
+        for row in positions.iter().chain(displacements.iter()) {
+            // 0, or not a number.
+            sum = sum + L::load(row) * zero;
+        }
+        *finite = sum.equal(zero).bits();
+        written
     }
 }

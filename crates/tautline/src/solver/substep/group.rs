@@ -151,6 +151,10 @@ impl Groups {
         self.groups.iter().flat_map(|group| &group.batches)
     }
 
+    pub(super) fn iter(&self) -> impl Iterator<Item = &Group> {
+        self.groups.iter()
+    }
+
     pub(super) fn iter_mut(&mut self) -> impl Iterator<Item = &mut Group> {
         self.groups.iter_mut()
     }

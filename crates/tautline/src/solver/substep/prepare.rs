@@ -1,9 +1,8 @@
-//! From held contacts to rows for the solver, and back.
+//! From held contacts to rows for the solver.
 
 use crate::simd::{LANES, Lanes, Matrix3x8, Row, Vec3x8, rows_at};
 
 use super::batch::{Batch, HeaderRows, NO_PAIR, PointRows};
-use super::block::column;
 use super::held::Held;
 
 /// Where a body is, as two rows: centre, 1/m, 1/√I, response; first and second axis, two numbers of no concern here.
@@ -194,16 +193,4 @@ fn with_tangents<L: Lanes>(n: Vec3x8<L>) -> [Vec3x8<L>; 3] {
     let first = Vec3x8::new(one + sign * n.x * n.x * a, sign * b, -(sign * n.x));
     let second = Vec3x8::new(b, sign + n.y * n.y * a, -n.y);
     [n, first, second]
-}
-
-/// Keeps the multipliers of a batch for the next step, and lets the anchors of what has slid follow.
-pub(super) fn keep(lane: usize, header: &HeaderRows, points: &[PointRows], held: &mut Held) {
-    let tangent = |axis: usize, factor: f32| column(&header.tangents[axis], lane) * factor;
-    held.change_points(|k, point| {
-        let rows = &points[k];
-        let impulses = [0, 1].map(|axis| rows.tangent_impulses[axis].0[lane]);
-        let tangential = tangent(0, impulses[0]) + tangent(1, impulses[1]);
-        let slip = point.slip() - tangent(0, rows.slid[0].0[lane]) - tangent(1, rows.slid[1].0[lane]);
-        point.continue_from(rows.normal_impulse.0[lane], tangential, slip);
-    });
 }
