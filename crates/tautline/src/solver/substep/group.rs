@@ -10,7 +10,7 @@ use super::bounce::{Bounce, LANDING_VISITS, MOST_VISITS};
 use super::contact::{Pass, Softness, pass};
 use super::crew::Crew;
 use super::lineup::{Lineup, Region};
-use super::pairs::{Pair, Pairs, fit, reserve};
+use super::pairs::{Pair, Pairs, fit, renew};
 use super::prepare::{Poses, fill};
 use super::rolling::Rolling;
 use super::stack::Found;
@@ -95,13 +95,9 @@ impl Group {
         let places =
             Colouring::default().batch(&active, self.range.len(), [empty, ground], &mut self.batches);
         let points = self.batches.last().map_or(0, |batch| batch.first + batch.points);
-        reserve(&mut self.headers, self.batches.len());
-        self.headers.resize_with(self.batches.len(), HeaderRows::default);
-        reserve(&mut self.points, points as usize);
-        self.points.resize_with(points as usize, PointRows::default);
         fit(&mut self.batches);
-        fit(&mut self.headers);
-        fit(&mut self.points);
+        renew(&mut self.headers, self.batches.len());
+        renew(&mut self.points, points as usize);
         places
     }
 }

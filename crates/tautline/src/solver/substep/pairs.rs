@@ -235,6 +235,15 @@ pub(super) fn reserve<T>(items: &mut Vec<T>, count: usize) {
     }
 }
 
+/// Makes a list of so many items, all of which are going to be written: what is in it is not moved to other memory.
+pub(super) fn renew<T: Default>(items: &mut Vec<T>, count: usize) {
+    if items.capacity() < count || items.capacity() > count + count / WASTE {
+        *items = Vec::new();
+        reserve(items, count);
+    }
+    items.resize_with(count, T::default);
+}
+
 /// Gives back what a list has too much of.
 pub(super) fn fit<T>(items: &mut Vec<T>) {
     let count = items.len();
