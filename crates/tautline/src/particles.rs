@@ -12,11 +12,11 @@ use crate::error::Error;
 
 /// How far out a particle may be, and how far it may move in a substep, in m. There `f32` tells places 65 km apart; a speed
 /// or an angular momentum of what is farther could be beyond all numbers.
-const FARTHEST: f32 = 1e12;
+pub(crate) const FARTHEST: f32 = 1e12;
 
 /// Whether a particle is still somewhere: what is not finite is nowhere.
 pub(crate) fn is_within_reach(position: Vec3, displacement: Vec3) -> bool {
-    [position, displacement].iter().all(|vector| vector.abs().cmple(Vec3::splat(FARTHEST)).all())
+    [position, displacement].iter().all(|vector| vector.abs().cmplt(Vec3::splat(FARTHEST)).all())
 }
 
 /// All particles, body after body. A body owns one contiguous range; particle `i` of a body is vertex `i` of
@@ -31,10 +31,8 @@ pub(crate) struct Particles {
     pub(crate) inverse_mass: Vec<f32>,
     /// m, in kg, kept while a particle is pinned.
     pub(crate) mass: Vec<f32>,
-    /// Sum of the external forces for the coming step, in N.
-    pub(crate) force: Vec<Vec3>,
-    /// Whether any of them may not be zero.
-    pub(crate) is_forced: bool,
+    /// Sum of the external forces for the coming step, in N; empty if there are none.
+    force: Vec<Vec3>,
 }
 
 /// The particles of one body, to be moved by a solver.
@@ -57,8 +55,32 @@ impl Particles {
         self.displacement.resize(range.end, Vec3::ZERO);
         self.inverse_mass.resize(range.end, if fixed { 0.0 } else { 1.0 / mass });
         self.mass.resize(range.end, mass);
-        self.force.resize(range.end, Vec3::ZERO);
+        if self.is_forced() {
+            self.force.resize(range.end, Vec3::ZERO);
+        }
         range
+    }
+
+    /// Whether any force may act on a particle in the coming step.
+    pub(crate) fn is_forced(&self) -> bool {
+        !self.force.is_empty()
+    }
+
+    /// The forces on the particles of a range in the coming step, in N; none if there are none at all.
+    pub(crate) fn forces(&self, range: Range<usize>) -> &[Vec3] {
+        self.force.get(range).unwrap_or_default()
+    }
+
+    /// The force on a particle in the coming step, in N.
+    pub(crate) fn force(&self, particle: usize) -> Vec3 {
+        self.force.get(particle).copied().unwrap_or(Vec3::ZERO)
+    }
+
+    /// Adds to the force (N) on a particle in the coming step.
+    pub(crate) fn add_force(&mut self, particle: usize, force: Vec3) {
+        let count = self.len();
+        self.force.resize(count, Vec3::ZERO);
+        self.force[particle] += force;
     }
 
     /// Gives particles from `start` on that can move their masses, in kg.
@@ -71,9 +93,10 @@ impl Particles {
 
     pub(crate) fn validate(&self) -> Result<(), Error> {
         let count = self.len();
-        let lengths = [self.displacement.len(), self.inverse_mass.len(), self.mass.len(), self.force.len()];
+        let lengths = [self.displacement.len(), self.inverse_mass.len(), self.mass.len()];
         let vectors = self.position.iter().chain(&self.displacement).chain(&self.force);
         let sound = lengths.iter().all(|&length| length == count)
+            && (!self.is_forced() || self.force.len() == count)
             && vectors.into_iter().all(|vector| vector.is_finite())
             && self.inverse_mass.iter().all(|w| w.is_finite() && *w >= 0.0)
             && self.mass.iter().all(|m| m.is_finite() && *m > 0.0);
@@ -86,14 +109,14 @@ impl Particles {
         self.displacement.drain(range.clone());
         self.inverse_mass.drain(range.clone());
         self.mass.drain(range.clone());
-        self.force.drain(range);
+        if self.is_forced() {
+            self.force.drain(range);
+        }
     }
 
     /// Forgets the forces of the step that ends.
     pub(crate) fn clear_forces(&mut self) {
-        if std::mem::take(&mut self.is_forced) {
-            self.force.fill(Vec3::ZERO);
-        }
+        self.force.clear();
     }
 
     /// Moves a particle by `shift` (m) and so changes its displacement alike: Verlet reads a projection as
@@ -199,6 +222,21 @@ mod tests {
         let views = particles.split_mut(ranges.into_iter());
         assert_eq!((&*views[0].position, &*views[1].position), (&[Vec3::X, Vec3::Y][..], &[Vec3::Z][..]));
         assert_eq!(views[1].inverse_mass, [0.0]);
+    }
+
+    #[test]
+    fn forces_take_memory_only_in_a_step_that_has_any() {
+        let mut particles = Particles::default();
+        particles.extend(&[Vec3::X, Vec3::Y], 1.0, false);
+        assert_eq!((particles.force(1), particles.forces(0..2)), (Vec3::ZERO, &[][..]));
+        particles.add_force(1, Vec3::Y);
+        particles.add_force(1, Vec3::Z);
+        particles.extend(&[Vec3::Z], 1.0, false);
+        particles.remove(0..1);
+        assert_eq!(particles.forces(0..2), [Vec3::Y + Vec3::Z, Vec3::ZERO]);
+        assert!(particles.validate().is_ok());
+        particles.clear_forces();
+        assert!(!particles.is_forced() && particles.validate().is_ok());
     }
 
     #[test]

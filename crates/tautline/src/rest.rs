@@ -107,9 +107,11 @@ pub(crate) fn note_drift(body: &mut Body, positions: &[Vec3], sleep: Sleep, dt: 
     let positions = &positions[body.particles.clone()];
     let drifted = |(x, reference): (&Vec3, &Vec3)| x.distance_squared(*reference) > reach * reach;
     let rest = &mut body.rest;
-    if rest.reference.len() != positions.len() || positions.iter().zip(&rest.reference).any(drifted) {
-        rest.reference.clear();
-        rest.reference.extend_from_slice(positions);
+    if rest.reference.len() != positions.len() {
+        rest.reference = positions.into();
+        rest.still_for = 0.0;
+    } else if positions.iter().zip(&rest.reference).any(drifted) {
+        rest.reference.copy_from_slice(positions);
         rest.still_for = 0.0;
     } else {
         rest.still_for += dt;

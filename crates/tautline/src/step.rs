@@ -212,7 +212,7 @@ impl World {
             for i in body.particles.clone() {
                 let w = store.inverse_mass[i];
                 if w > 0.0 {
-                    let acceleration = self.settings.gravity + store.force[i] * w;
+                    let acceleration = self.settings.gravity + store.force(i) * w;
                     step.advance(&mut store.position[i], &mut store.displacement[i], acceleration);
                 }
             }

@@ -112,7 +112,7 @@ pub(crate) enum Substance {
         truss: Arc<Truss>,
     },
     Deformable(Box<Deformable>),
-    HalfSpace(HalfSpace),
+    HalfSpace(Box<HalfSpace>),
 }
 
 /// How long a body has been still.
@@ -124,12 +124,12 @@ pub(crate) struct Rest {
     /// For how long it has been slow while it leant on something, in s: of cloth and rope.
     pub(crate) calm_for: f32,
     /// Where its particles were when it was last found moving; empty until the first step.
-    pub(crate) reference: Vec<Vec3>,
+    pub(crate) reference: Box<[Vec3]>,
 }
 
 impl Body {
     pub(crate) fn new(particles: Range<usize>, substance: Substance, surface: Surface, fixed: bool) -> Self {
-        let rest = Rest { asleep: false, still_for: 0.0, calm_for: 0.0, reference: Vec::new() };
+        let rest = Rest { asleep: false, still_for: 0.0, calm_for: 0.0, reference: Box::default() };
         Self { particles, substance, surface, fixed, previous_step: 0.0, rest }
     }
 

@@ -83,7 +83,7 @@ impl World {
     fn selected_walls(&self, selection: Selection) -> impl Iterator<Item = (usize, &HalfSpace)> {
         let bodies = self.bodies.iter().enumerate();
         bodies.filter_map(move |(index, body)| match &body.substance {
-            Substance::HalfSpace(wall) if selection.includes(index, body) => Some((index, wall)),
+            Substance::HalfSpace(wall) if selection.includes(index, body) => Some((index, wall.as_ref())),
             _ => None,
         })
     }

@@ -74,7 +74,7 @@ impl World {
     fn add_half_space(&mut self, wall: HalfSpace) -> Result<BodyHandle, Error> {
         let wall = wall.validated()?;
         let range = self.particles.len()..self.particles.len();
-        Ok(self.push(Body::new(range, Substance::HalfSpace(wall), wall.surface, true)))
+        Ok(self.push(Body::new(range, Substance::HalfSpace(Box::new(wall)), wall.surface, true)))
     }
 
     fn add_deformable(&mut self, built: BuiltDeformable) -> Result<BodyHandle, Error> {

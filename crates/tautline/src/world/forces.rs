@@ -19,9 +19,8 @@ impl World {
         let range = self.bodies[index].particles.clone();
         let total: f32 = self.particles.mass[range.clone()].iter().sum();
         for i in range {
-            self.particles.force[i] += force * (self.particles.mass[i] / total);
+            self.particles.add_force(i, force * (self.particles.mass[i] / total));
         }
-        self.particles.is_forced = true;
         self.wake_body(index);
         Ok(())
     }
@@ -132,9 +131,8 @@ impl World {
 
     fn add_forces(&mut self, index: usize, forces: [Vec3; 4]) {
         for (i, force) in self.bodies[index].particles.clone().zip(forces) {
-            self.particles.force[i] += force;
+            self.particles.add_force(i, force);
         }
-        self.particles.is_forced = true;
         self.wake_body(index);
     }
 

@@ -18,8 +18,7 @@ impl World {
     pub fn apply_force_at(&mut self, handle: BodyHandle, particle: u32, force: Vec3) -> Result<(), Error> {
         coordinates("force", force)?;
         let (index, i) = self.particle(handle, particle)?;
-        self.particles.force[i] += force;
-        self.particles.is_forced = true;
+        self.particles.add_force(i, force);
         self.wake_body(index);
         Ok(())
     }

@@ -132,7 +132,7 @@ impl SoftSolver {
         self.led.clear();
         for kick in &mut self.points.kick {
             kick.clear();
-            kick.resize(if particles.is_forced { self.points.inverse_mass.len() } else { 0 }, 0.0);
+            kick.resize(if particles.is_forced() { self.points.inverse_mass.len() } else { 0 }, 0.0);
         }
         for number in 0..self.pieces.len() {
             self.read(number, bodies, particles, settings.gravity * (small * small), small);
@@ -156,9 +156,9 @@ impl SoftSolver {
             let (place, mass) = (piece.place(number), particles.inverse_mass[i]);
             let mut displacement = particles.displacement[i] * scale;
             if mass > 0.0 {
-                let kick = particles.force[i] * (mass * small * small);
+                let kick = particles.force(i) * (mass * small * small);
                 displacement += (fall + kick) * lag;
-                if particles.is_forced {
+                if particles.is_forced() {
                     set(&mut self.points.kick, place, kick);
                 }
             } else if displacement != Vec3::ZERO {

@@ -38,8 +38,6 @@ pub(super) struct Batch {
     pub(super) pairs: [u32; LANES],
     pub(super) a: [u32; LANES],
     pub(super) b: [u32; LANES],
-    pub(super) place_a: [u32; LANES],
-    pub(super) place_b: [u32; LANES],
     /// Where its points begin.
     pub(super) first: u32,
     /// How many points its pairs have at most, and each of them.
@@ -49,6 +47,13 @@ pub(super) struct Batch {
     pub(super) stacked: u32,
     /// Whether the next batch moves none of the same bodies.
     pub(super) has_twin: bool,
+}
+
+/// The places of eight pairs' bodies in the lineup, which are asked for their poses.
+#[derive(Debug, Clone)]
+pub(super) struct Places {
+    pub(super) a: [u32; LANES],
+    pub(super) b: [u32; LANES],
 }
 
 impl Batch {
@@ -71,9 +76,6 @@ pub(super) struct HeaderRows {
     pub(super) normal: Rows3,
     pub(super) tangents: [Rows3; 2],
     pub(super) friction: Row,
-    pub(super) restitution: Row,
-    /// In m.
-    pub(super) rolling_friction: Row,
     /// 1 where contacts are soft, 0 in stacks that are solved.
     pub(super) is_soft: Row,
 }
@@ -139,7 +141,7 @@ const ROUND: u32 = 64;
 const MOST_POINTS: u32 = 4;
 
 impl Colouring {
-    /// Puts the pairs into batches. `empty` is the place (counted within the range of `range_length` places) that
+    /// Puts the pairs into batches, and returns the places of each. `empty` is the place (counted within the range of `range_length` places) that
     /// empty lanes name, `ground` the place in the lineup.
     pub(super) fn batch(
         &mut self,
@@ -147,24 +149,26 @@ impl Colouring {
         range_length: usize,
         [empty, ground]: [u32; 2],
         batches: &mut Vec<Batch>,
-    ) {
+    ) -> Vec<Places> {
         self.colour(pairs, range_length);
         batches.clear();
         let count: u32 = self.slots.iter().map(|slots| slots.count.div_ceil(LANES as u32)).sum();
         reserve(batches, count as usize);
-        let places = ([empty; LANES], [ground; LANES]);
         for colour in self.slots.chunks_mut(MOST_POINTS as usize) {
-            share_out(colour, places, batches);
+            share_out(colour, empty, batches);
         }
+        let mut places = vec![Places { a: [ground; LANES], b: [ground; LANES] }; batches.len()];
         for (active, &class) in pairs.iter().zip(&self.classes) {
             let lane = self.slots[class as usize].next();
-            let (batch, lane) = (&mut batches[lane / LANES], lane % LANES);
+            let (number, lane) = (lane / LANES, lane % LANES);
+            let (batch, places) = (&mut batches[number], &mut places[number]);
             batch.pairs[lane] = active.pair;
             batch.counts[lane] = active.points;
             (batch.a[lane], batch.b[lane]) = (active.a, active.b);
-            (batch.place_a[lane], batch.place_b[lane]) = (active.place_a, active.place_b);
+            (places.a[lane], places.b[lane]) = (active.place_a, active.place_b);
             batch.stacked |= u32::from(active.is_stacked) << lane;
         }
+        places
     }
 
     fn colour(&mut self, pairs: &[Active], range_length: usize) {
@@ -218,7 +222,7 @@ impl Colouring {
 }
 
 /// Adds empty batches for the classes of a colour, and tells these where their pairs go.
-fn share_out(classes: &mut [Slots], (empty, ground): ([u32; LANES], [u32; LANES]), batches: &mut Vec<Batch>) {
+fn share_out(classes: &mut [Slots], empty: u32, batches: &mut Vec<Batch>) {
     const WIDTH: u32 = LANES as u32;
     // Free lanes of a batch of pairs with more points, and the first of them.
     let (mut free, mut free_lane) = (0, 0);
@@ -233,10 +237,8 @@ fn share_out(classes: &mut [Slots], (empty, ground): ([u32; LANES], [u32; LANES]
             let first = batches.last().map_or(0, |batch: &Batch| batch.first + batch.points);
             batches.push(Batch {
                 pairs: [NO_PAIR; LANES],
-                a: empty,
-                b: empty,
-                place_a: ground,
-                place_b: ground,
+                a: [empty; LANES],
+                b: [empty; LANES],
                 first,
                 points,
                 counts: [0; LANES],

@@ -9,6 +9,8 @@
 //! the frame of the step's start. In these variables the inverse mass matrix is diag(1/m, 1), so that one Jacobian
 //! √I⁻¹ (l × Rᵀd) both reads a velocity and applies an impulse. The last number is 0 for what no impulse turns.
 
+use std::sync::Arc;
+
 use glam::Mat3;
 
 use super::rigidity;
@@ -20,7 +22,7 @@ pub(super) use crate::simd::column;
 pub(super) type Rows3 = [Row; 3];
 
 /// What does not change from step to step.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Constants {
     /// sₖ, in m.
     pub(super) spread: Rows3,
@@ -46,7 +48,8 @@ pub(super) struct Constants {
 /// Where eight bodies are.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Block {
-    pub(super) constants: Constants,
+    /// Blocks of like bodies share them.
+    pub(super) constants: Arc<Constants>,
     /// Centres of mass when the step began, in m.
     pub(super) center: Rows3,
     /// How far they have moved since the step began, in m, and what was rounded off the centres then. By itself, so

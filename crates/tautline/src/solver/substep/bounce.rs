@@ -20,6 +20,7 @@ use super::prepare::OUT_OF_REACH;
 pub(super) struct Bounce {
     /// The number of their batch.
     pub(super) batch: u32,
+    restitution: Row,
     points: [BouncePoint; MOST_POINTS],
 }
 
@@ -44,8 +45,8 @@ pub(super) const MOST_VISITS: usize = 32;
 pub(super) const LANDING_VISITS: usize = 32;
 
 impl Bounce {
-    pub(super) fn new(batch: u32) -> Self {
-        Self { batch, points: [BouncePoint::default(); MOST_POINTS] }
+    pub(super) fn new(batch: u32, restitution: Row) -> Self {
+        Self { batch, restitution, points: [BouncePoint::default(); MOST_POINTS] }
     }
 
     /// Before forces act: takes out the impulses of the last substep's blows, and finds who meets now.
@@ -62,7 +63,7 @@ impl Bounce {
         let (kick_a, kick_b) = (Body::<L>::gather(kicks, &batch.a), Body::gather(kicks, &batch.b));
         let mut sum_a = a.with_rows(L::gather(rows_at(accumulated, &batch.a)));
         let mut sum_b = b.with_rows(L::gather(rows_at(accumulated, &batch.b)));
-        let restitution = L::load(&header.restitution);
+        let restitution = L::load(&self.restitution);
         for (bounce, rows) in self.points.iter_mut().zip(points) {
             let met = L::load(&bounce.meets);
             let normal = met.and(L::load(&rows.normal_impulse));

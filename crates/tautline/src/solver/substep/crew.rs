@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::body::{Body, Motion as MotionKind, Rigid, Substance};
 use crate::parallel;
-use crate::particles::Particles;
+use crate::particles::{FARTHEST, Particles};
 use crate::shape::Shape;
 use crate::simd::{Instructions, Kernel, LANES, Lanes, Row, run};
 
@@ -61,6 +61,9 @@ pub(super) struct Track {
     pub(super) turning: u32,
 }
 
+/// Among so many blocks that differ one of the same bodies is looked for.
+const LAST_KNOWN: usize = 8;
+
 /// Everything by place.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Crew {
@@ -98,7 +101,11 @@ impl Crew {
     /// The bodies where they stand; nothing is read of where they are yet.
     pub(super) fn new(lineup: &Lineup, bodies: &[Body]) -> Self {
         let count = lineup.places.len();
-        let block = |places: &[u32]| new_block(places, bodies);
+        let mut constants: Vec<Arc<Constants>> = Vec::new();
+        let block = |places: &[u32]| {
+            let constants = shared(new_constants(places, bodies), &mut constants);
+            Block { constants, ..Block::default() }
+        };
         let shape = |&place: &u32| rigid_at(place, bodies).map(|(_, rigid)| Arc::clone(&rigid.shape));
         let shapes: Vec<_> = lineup.places.iter().map(shape).collect();
         let solid = shapes.iter().flatten().filter(|shape| shape.is_solid());
@@ -231,8 +238,8 @@ impl Crew {
         self.for_each(lineup, lineup.stripes(), |squad| run(instructions, Calm { squad }));
     }
 
-    /// The particles of eight bodies as they are now: positions and displacements.
-    pub(super) fn particles_of(&self, block: usize, instructions: Instructions) -> [ParticleRows; 2] {
+    /// The particles of eight bodies as they are now.
+    pub(super) fn particles_of(&self, block: usize, instructions: Instructions) -> Written {
         let rows = &self.velocities[block * LANES..(block + 1) * LANES];
         run(instructions, Write { block: &self.blocks[block], rows })
     }
@@ -282,7 +289,7 @@ fn rigid_at(place: u32, bodies: &[Body]) -> Option<(&Body, &Rigid)> {
     }
 }
 
-fn new_block(places: &[u32], bodies: &[Body]) -> Block {
+fn new_constants(places: &[u32], bodies: &[Body]) -> Constants {
     let one = Row([1.0; LANES]);
     let mut constants = Constants {
         spread: [one; 3],
@@ -310,7 +317,16 @@ fn new_block(places: &[u32], bodies: &[Body]) -> Block {
             constants.damping[1].0[lane] = rigid.traits.angular_damping;
         }
     }
-    Block { constants, ..Block::default() }
+    constants
+}
+
+/// The same constants out of those known last, or else these, which are then known.
+fn shared(constants: Constants, known: &mut Vec<Arc<Constants>>) -> Arc<Constants> {
+    if let Some(same) = known.iter().rev().take(LAST_KNOWN).find(|other| ***other == constants) {
+        return Arc::clone(same);
+    }
+    known.push(Arc::new(constants));
+    Arc::clone(&known[known.len() - 1])
 }
 
 #[inline(always)]
@@ -401,19 +417,40 @@ impl Kernel for Calm<'_, '_> {
     }
 }
 
+/// The particles of eight bodies.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Written {
+    pub(super) positions: ParticleRows,
+    pub(super) displacements: ParticleRows,
+    /// Bits of the lanes in which all numbers are within reach.
+    pub(super) within_reach: u32,
+}
+
+impl Written {
+    pub(super) const NOTHING: Self =
+        Self { positions: [Row::ZERO; 12], displacements: [Row::ZERO; 12], within_reach: 0 };
+}
+
 struct Write<'a> {
     block: &'a Block,
     rows: &'a [Row],
 }
 
 impl Kernel for Write<'_> {
-    type Output = [ParticleRows; 2];
+    type Output = Written;
 
     #[inline(always)]
-    fn run<L: Lanes>(self) -> Self::Output {
-        let mut particles = [[Row::ZERO; 12]; 2];
-        let [positions, displacements] = &mut particles;
+    fn run<L: Lanes>(self) -> Written {
+        let mut written = Written::NOTHING;
+        let Written { positions, displacements, within_reach } = &mut written;
         self.block.write::<L>(&load(self.rows), positions, displacements);
-        particles
+        let farthest = L::splat(FARTHEST);
+        let mut is_within = farthest.greater(L::splat(0.0));
+        for row in positions.iter().chain(displacements.iter()) {
+            let number = L::load(row);
+            is_within = is_within.and(farthest.greater(number.max(-number)));
+        }
+        *within_reach = is_within.bits();
+        written
     }
 }

@@ -1,29 +1,26 @@
-//! The end of a step: particles are written, and multipliers kept for the next step.
+//! The end of a step: particles are written.
 //!
-//! What is written to is in the order of the bodies and of the pairs, what is read in that of places and batches: so
-//! runs of bodies, and of pairs, are done side by side, and each looks up where its own is.
+//! What is written to is in the order of the bodies, what is read in that of places: so runs of bodies are done side by
+//! side, and each looks up where its own is.
 
 use glam::Vec3;
 
 use super::block::ParticleRows;
-use super::group::Group;
+use super::crew::Written;
 use super::lineup::Lineup;
-use super::{Lost, RigidSolver, prepare};
+use super::{Lost, RigidSolver};
 use crate::body::Body;
 use crate::parallel;
 use crate::particles::{Particles, is_within_reach};
 use crate::settings::Settings;
-use crate::simd::{LANES, Row};
+use crate::simd::LANES;
 
-/// From so many bodies or pairs on it pays to do them side by side, …
+/// From so many bodies on it pays to do them side by side, …
 const WORTHWHILE: usize = 1024;
 /// … so many at a time.
 const CHUNK: usize = 256;
 /// Blocks that are written at a time.
 const BLOCKS: usize = 32;
-
-/// The particles of eight bodies: positions and displacements.
-type Written = [ParticleRows; 2];
 
 /// Bodies that follow each other, with their particles.
 struct Run<'a> {
@@ -50,9 +47,9 @@ impl RigidSolver {
         }
         self.sweep(settings.instructions);
         self.listener.finish(&self.groups, &self.pairs);
-        self.keep_multipliers();
+        self.keep_multipliers(settings);
         let worthwhile = parallel::is_worthwhile(bodies.len(), WORTHWHILE);
-        let mut written = vec![[[Row::ZERO; 12]; 2]; self.lineup.solved / LANES];
+        let mut written = vec![Written::NOTHING; self.lineup.solved / LANES];
         let mut tasks: Vec<_> = (0..).step_by(BLOCKS).zip(written.chunks_mut(BLOCKS)).collect();
         parallel::for_each(&mut tasks, worthwhile, |(first, written)| {
             for (block, written) in (*first..).zip(written.iter_mut()) {
@@ -62,24 +59,6 @@ impl RigidSolver {
         let mut runs = runs(bodies, particles);
         parallel::for_each(&mut runs, worthwhile, |run| run.write(&self.lineup, &written, h));
         runs.into_iter().flat_map(|run| run.lost).collect()
-    }
-
-    fn keep_multipliers(&mut self) {
-        self.groups.iter_mut().filter(|group| !group.active.is_empty()).for_each(Group::forget_blows);
-        let (groups, details) = (&self.groups, &mut self.pairs.details);
-        let worthwhile = parallel::is_worthwhile(details.len(), WORTHWHILE);
-        // Every run goes through all batches, so there are not more than threads.
-        let runs = if worthwhile { parallel::threads() } else { 1 };
-        let run = details.len().div_ceil(runs).max(1);
-        let mut runs: Vec<_> = (0..).step_by(run).zip(details.chunks_mut(run)).collect();
-        parallel::for_each(&mut runs, worthwhile, |(first, details)| {
-            groups.for_each_lane(*first..*first + details.len() as u32, |pair, lane| {
-                if let Some(held) = &mut details[(pair - *first) as usize].held {
-                    let (header, points) = groups.rows(&lane);
-                    prepare::keep(lane.lane(), header, points, held);
-                }
-            });
-        });
     }
 }
 
@@ -109,14 +88,16 @@ impl Run<'_> {
         let (first_body, first_particle) = self.first;
         for (index, body) in (first_body..).zip(self.bodies.iter_mut()) {
             let Some(place) = lineup.place_of_motion(index) else { continue };
-            let ([positions, displacements], lane) = (&written[place / LANES], place % LANES);
+            let (Written { positions, displacements, within_reach }, lane) =
+                (&written[place / LANES], place % LANES);
             let vector = |rows: &ParticleRows, k: usize| {
                 Vec3::new(rows[3 * k].0[lane], rows[3 * k + 1].0[lane], rows[3 * k + 2].0[lane])
             };
             let moved: [[Vec3; 2]; 4] =
                 std::array::from_fn(|k| [vector(positions, k), vector(displacements, k)]);
-            if let Some(particle) = moved.iter().position(|&[x, d]| !is_within_reach(x, d)) {
-                self.lost.push(Lost { body: index, particle: particle as u32 });
+            if within_reach >> lane & 1 == 0 {
+                let particle = moved.iter().position(|&[x, d]| !is_within_reach(x, d));
+                self.lost.push(Lost { body: index, particle: particle.unwrap_or(0) as u32 });
                 continue;
             }
             let start = body.particles.start - first_particle;

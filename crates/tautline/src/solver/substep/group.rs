@@ -3,14 +3,14 @@
 use std::ops::Range;
 
 use crate::parallel;
-use crate::simd::{Instructions, Kernel, Lanes, Row, run};
+use crate::simd::{Instructions, Kernel, LANES, Lanes, Row, run};
 
-use super::batch::{Active, Batch, Colouring, HeaderRows, PointRows};
+use super::batch::{Active, Batch, Colouring, HeaderRows, Places, PointRows};
 use super::bounce::{Bounce, LANDING_VISITS, MOST_VISITS};
 use super::contact::{Pass, Softness, pass};
 use super::crew::Crew;
 use super::lineup::{Lineup, Region};
-use super::pairs::{Pair, Pairs, fit, reserve};
+use super::pairs::{Pair, Pairs, fit, renew};
 use super::prepare::{Poses, fill};
 use super::rolling::Rolling;
 use super::stack::Found;
@@ -25,7 +25,8 @@ const CHUNK: usize = 1024;
 pub(super) struct Group {
     /// The places whose velocities it reads and changes.
     pub(super) range: Range<usize>,
-    pub(super) active: Vec<Active>,
+    /// Until they are put into batches.
+    active: Vec<Active>,
     pub(super) batches: Vec<Batch>,
     pub(super) headers: Vec<HeaderRows>,
     pub(super) points: Vec<PointRows>,
@@ -35,7 +36,6 @@ pub(super) struct Group {
     rollings: Vec<Rolling>,
     /// Whether the last visit of the bounces changed anything.
     is_ringing: bool,
-    colouring: Colouring,
 }
 
 /// Where the contact of a pair is: its group, batch and lane.
@@ -72,7 +72,6 @@ impl Group {
             bounces: Vec::new(),
             rollings: Vec::new(),
             is_ringing: false,
-            colouring: Colouring::default(),
         }
     }
 
@@ -83,18 +82,23 @@ impl Group {
         }
     }
 
-    fn batch(&mut self, ground: u32) {
+    /// Whether it has no pairs.
+    pub(super) fn is_empty(&self) -> bool {
+        self.active.is_empty() && self.batches.is_empty()
+    }
+
+    /// Puts the pairs that were sorted in into batches, which stand for them from then on.
+    /// Returns their bodies' places.
+    fn batch(&mut self, ground: u32) -> Vec<Places> {
         let empty = self.range.len() as u32 - 1;
-        self.colouring.batch(&self.active, self.range.len(), [empty, ground], &mut self.batches);
+        let active = std::mem::take(&mut self.active);
+        let places =
+            Colouring::default().batch(&active, self.range.len(), [empty, ground], &mut self.batches);
         let points = self.batches.last().map_or(0, |batch| batch.first + batch.points);
-        reserve(&mut self.headers, self.batches.len());
-        self.headers.resize_with(self.batches.len(), HeaderRows::default);
-        reserve(&mut self.points, points as usize);
-        self.points.resize_with(points as usize, PointRows::default);
-        fit(&mut self.active);
         fit(&mut self.batches);
-        fit(&mut self.headers);
-        fit(&mut self.points);
+        renew(&mut self.headers, self.batches.len());
+        renew(&mut self.points, points as usize);
+        places
     }
 }
 
@@ -143,13 +147,21 @@ impl Groups {
         self.groups.iter().flat_map(|group| &group.batches)
     }
 
+    pub(super) fn iter(&self) -> impl Iterator<Item = &Group> {
+        self.groups.iter()
+    }
+
     pub(super) fn iter_mut(&mut self) -> impl Iterator<Item = &mut Group> {
         self.groups.iter_mut()
     }
 
     /// Sorts the pairs that have points, and of which a body is solved for, into their groups.
     pub(super) fn sort_in(&mut self, pairs: &Pairs, lineup: &Lineup) {
-        self.groups.iter_mut().for_each(|group| group.active.clear());
+        for group in &mut self.groups {
+            group.active.clear();
+            // As many as in the last step.
+            group.active.reserve(group.batches.len() * LANES);
+        }
         let numbered = pairs.pairs.iter().enumerate();
         if !parallel::is_worthwhile(pairs.pairs.len(), WORTHWHILE) {
             for (region, active) in numbered.filter_map(|pair| active(lineup, pair)) {
@@ -198,7 +210,7 @@ impl Groups {
 
     /// Tells where the pairs of a run of numbers are, batch after batch, as their rows are in memory.
     pub(super) fn for_each_lane(&self, run: Range<u32>, mut visit: impl FnMut(u32, Lane)) {
-        let in_use = (0..).zip(&self.groups).filter(|(_, group)| !group.active.is_empty());
+        let in_use = (0..).zip(&self.groups).filter(|(_, group)| !group.is_empty());
         for (group, of_group) in in_use {
             for (batch, of_batch) in (0..).zip(&of_group.batches) {
                 for (lane, &pair) in (0..).zip(&of_batch.pairs).filter(|(_, pair)| run.contains(pair)) {
@@ -237,7 +249,7 @@ impl Groups {
             let groups = &mut self.groups[phase.clone()];
             if let [group] = groups {
                 let range = group.range.clone();
-                if !group.active.is_empty() {
+                if !group.is_empty() {
                     work(group, &mut rows[range]);
                 }
                 continue;
@@ -251,7 +263,7 @@ impl Groups {
                 tasks.push((group, own));
             }
             parallel::for_each(&mut tasks, true, |(group, rows)| {
-                if !group.active.is_empty() {
+                if !group.is_empty() {
                     work(group, rows);
                 }
             });
@@ -268,8 +280,8 @@ impl Groups {
         instructions: Instructions,
     ) {
         self.for_each(accumulated, |group, accumulated| {
-            group.batch(ground);
-            run(instructions, Prepare { group, pairs, poses: Poses(poses), accumulated });
+            let places = &group.batch(ground);
+            run(instructions, Prepare { group, pairs, places, poses: Poses(poses), accumulated });
         });
     }
 
@@ -339,6 +351,8 @@ impl Groups {
 struct Prepare<'a> {
     group: &'a mut Group,
     pairs: &'a Pairs,
+    /// Of each batch.
+    places: &'a [Places],
     poses: Poses<'a>,
     accumulated: &'a mut [Row],
 }
@@ -352,15 +366,18 @@ impl Kernel for Prepare<'_> {
         let contact_of = |pair: u32| self.pairs.details[pair as usize].held.as_ref();
         bounces.clear();
         rollings.clear();
-        for (number, (batch, header)) in (0..).zip(batches.iter().zip(headers)) {
+        let with_places = batches.iter().zip(self.places).zip(headers);
+        for (number, ((batch, places), header)) in (0..).zip(with_places) {
             let rows = &mut points[batch.range()];
-            fill::<L>(batch, contact_of, &self.poses, (header, rows), self.accumulated);
+            let frames = [self.poses.gather::<L>(&places.a), self.poses.gather::<L>(&places.b)];
+            let rare = fill::<L>(batch, contact_of, &frames, (header, rows), self.accumulated);
             let zero = L::splat(0.0);
-            if L::load(&header.restitution).greater(zero).bits() != 0 {
-                bounces.push(Bounce::new(number));
+            if L::load(&rare.restitution).greater(zero).bits() != 0 {
+                bounces.push(Bounce::new(number, rare.restitution));
             }
-            if L::load(&header.rolling_friction).greater(zero).bits() != 0 {
-                rollings.push(Rolling::new::<L>(number, batch, header, &self.poses));
+            if L::load(&rare.rolling_friction).greater(zero).bits() != 0 {
+                let rolling = Rolling::new::<L>(number, rare.rolling_friction, header, &frames);
+                rollings.push(rolling);
             }
         }
     }
@@ -445,11 +462,10 @@ impl Kernel for Resist<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Group { batches, headers, points, rollings, .. } = self.group;
+        let Group { batches, points, rollings, .. } = self.group;
         for rolling in rollings {
-            let number = rolling.batch as usize;
-            let batch = &batches[number];
-            rolling.resist::<L>((batch, &headers[number], &points[batch.range()]), self.velocities);
+            let batch = &batches[rolling.batch as usize];
+            rolling.resist::<L>((batch, &points[batch.range()]), self.velocities);
         }
     }
 }

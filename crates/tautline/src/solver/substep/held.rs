@@ -97,14 +97,10 @@ impl Held {
         points.map(|rows| HeldPoint { anchors: rows[0], friction: rows[1] })
     }
 
-    /// Lets `change` change every point, numbered.
-    pub(super) fn change_points(&mut self, mut change: impl FnMut(usize, &mut HeldPoint)) {
-        let points = self.rows.get_mut(1..).unwrap_or_default().chunks_exact_mut(POINT_ROWS);
-        for (k, rows) in points.enumerate() {
-            let mut point = HeldPoint { anchors: rows[0], friction: rows[1] };
-            change(k, &mut point);
-            rows.copy_from_slice(&[point.anchors, point.friction]);
-        }
+    /// The anchors and the friction of point k, if it has that.
+    #[inline(always)]
+    pub(super) fn rows_of_point_mut(&mut self, k: usize) -> Option<&mut [Row; POINT_ROWS]> {
+        self.rows.get_mut(1 + POINT_ROWS * k..)?.first_chunk_mut()
     }
 
     pub(crate) fn normal(&self) -> Vec3 {

@@ -19,6 +19,7 @@ mod group;
 mod held;
 mod island;
 mod joint;
+mod keep;
 mod lineup;
 mod listen;
 mod look;

@@ -49,9 +49,9 @@ const WORTHWHILE: usize = 4096;
 const CHUNK: usize = 1024;
 
 /// Lists grow by this part more than they have to, …
-const GROWTH: usize = 16;
+const GROWTH: usize = 32;
 /// … and are cut back if more than this part of them is not in use.
-const WASTE: usize = 4;
+const WASTE: usize = 8;
 
 /// A stamp that no versions add up to.
 pub(super) const NEVER: u32 = u32::MAX;
@@ -233,6 +233,15 @@ pub(super) fn reserve<T>(items: &mut Vec<T>, count: usize) {
     if items.capacity() < count {
         items.reserve_exact(count + count / GROWTH - items.len());
     }
+}
+
+/// Makes a list of so many items, all of which are going to be written: what is in it is not moved to other memory.
+pub(super) fn renew<T: Default>(items: &mut Vec<T>, count: usize) {
+    if items.capacity() < count || items.capacity() > count + count / WASTE {
+        *items = Vec::new();
+        reserve(items, count);
+    }
+    items.resize_with(count, T::default);
 }
 
 /// Gives back what a list has too much of.

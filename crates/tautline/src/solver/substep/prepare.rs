@@ -1,9 +1,8 @@
-//! From held contacts to rows for the solver, and back.
+//! From held contacts to rows for the solver.
 
 use crate::simd::{LANES, Lanes, Matrix3x8, Row, Vec3x8, rows_at};
 
 use super::batch::{Batch, HeaderRows, NO_PAIR, PointRows};
-use super::block::column;
 use super::held::Held;
 
 /// Where a body is, as two rows: centre, 1/m, 1/√I, response; first and second axis, two numbers of no concern here.
@@ -51,6 +50,12 @@ impl Poses<'_> {
     }
 }
 
+/// The restitution and the rolling friction (m) of eight pairs.
+pub(super) struct Rare {
+    pub(super) restitution: Row,
+    pub(super) rolling_friction: Row,
+}
+
 /// The contacts of a batch.
 #[inline(always)]
 fn held<'a>(batch: &Batch, contact_of: impl Fn(u32) -> Option<&'a Held>) -> [Option<&'a Held>; LANES] {
@@ -80,16 +85,15 @@ fn rows_of<'a>(held: &[Option<&'a Held>; LANES], k: usize) -> ([&'a Row; LANES],
     (anchors, friction)
 }
 
-/// Fills the rows of a batch, and adds what its multipliers do to `accumulated`.
+/// Fills the rows of a batch, and adds what its multipliers do to `accumulated`. Returns what only few batches have any of.
 #[inline(always)]
 pub(super) fn fill<'a, L: Lanes>(
     batch: &Batch,
     contact_of: impl Fn(u32) -> Option<&'a Held>,
-    poses: &Poses<'_>,
+    [a, b]: &[Frames<L>; 2],
     (header, points): (&mut HeaderRows, &mut [PointRows]),
     accumulated: &mut [Row],
-) {
-    let (a, b) = (poses.gather::<L>(&batch.place_a), poses.gather::<L>(&batch.place_b));
+) -> Rare {
     let held = held(batch, contact_of);
     let shared = L::gather(headers_of(&held));
     let normal = Vec3x8::new(shared[0], shared[1], shared[2]);
@@ -98,12 +102,13 @@ pub(super) fn fill<'a, L: Lanes>(
     directions[1].store(&mut header.tangents[0]);
     directions[2].store(&mut header.tangents[1]);
     shared[3].store(&mut header.friction);
-    shared[4].store(&mut header.restitution);
-    shared[5].store(&mut header.rolling_friction);
     header.is_soft = Row([1.0; LANES]);
+    let mut rare = Rare { restitution: Row::ZERO, rolling_friction: Row::ZERO };
+    shared[4].store(&mut rare.restitution);
+    shared[5].store(&mut rare.rolling_friction);
     for lane in (0..LANES).filter(|lane| batch.stacked >> lane & 1 != 0) {
         // Stacks are too slow to bounce.
-        header.restitution.0[lane] = 0.0;
+        rare.restitution.0[lane] = 0.0;
     }
 
     let mut sum_a = L::gather(rows_at(accumulated, &batch.a));
@@ -155,6 +160,7 @@ pub(super) fn fill<'a, L: Lanes>(
     shift(&mut sum_b, impulse, b.inverse_mass);
     L::scatter(sum_a, accumulated, &batch.a);
     L::scatter(sum_b, accumulated, &batch.b);
+    rare
 }
 
 /// Further than anything reaches in a step, in m.
@@ -187,16 +193,4 @@ fn with_tangents<L: Lanes>(n: Vec3x8<L>) -> [Vec3x8<L>; 3] {
     let first = Vec3x8::new(one + sign * n.x * n.x * a, sign * b, -(sign * n.x));
     let second = Vec3x8::new(b, sign + n.y * n.y * a, -n.y);
     [n, first, second]
-}
-
-/// Keeps the multipliers of a batch for the next step, and lets the anchors of what has slid follow.
-pub(super) fn keep(lane: usize, header: &HeaderRows, points: &[PointRows], held: &mut Held) {
-    let tangent = |axis: usize, factor: f32| column(&header.tangents[axis], lane) * factor;
-    held.change_points(|k, point| {
-        let rows = &points[k];
-        let impulses = [0, 1].map(|axis| rows.tangent_impulses[axis].0[lane]);
-        let tangential = tangent(0, impulses[0]) + tangent(1, impulses[1]);
-        let slip = point.slip() - tangent(0, rows.slid[0].0[lane]) - tangent(1, rows.slid[1].0[lane]);
-        point.continue_from(rows.normal_impulse.0[lane], tangential, slip);
-    });
 }

@@ -57,9 +57,7 @@ impl Read<'_, '_> {
             let range = body.particles.clone();
             set_particles(&mut inputs.positions, lane, &self.particles.position[range.clone()]);
             set_particles(&mut inputs.displacements, lane, &self.particles.displacement[range.clone()]);
-            if self.particles.is_forced {
-                set_particles(&mut inputs.forces, lane, &self.particles.force[range]);
-            }
+            set_particles(&mut inputs.forces, lane, self.particles.forces(range));
             inputs.scale.0[lane] = self.timing.h / body.displacement_time();
             inputs.lag.0[lane] = (body.previous_step / self.timing.h - 1.0) * 0.5;
         }
@@ -87,7 +85,7 @@ impl Kernel for Read<'_, '_> {
             let block = &mut self.squad.blocks[i];
             let motion = block.read::<L>(&inputs.positions, &inputs.displacements, L::load(&inputs.scale));
             let columns = block.velocity_rows(motion);
-            let kick: [L; LANES] = kick(self.timing, self.particles.is_forced, block, &inputs);
+            let kick: [L; LANES] = kick(self.timing, self.particles.is_forced(), block, &inputs);
             let lag = L::load(&inputs.lag);
             let mut lagging = columns;
             for k in 0..LANES {

@@ -6,13 +6,15 @@ use crate::simd::{Lanes, Row, Vec3x8};
 use super::batch::{Batch, HeaderRows, PointRows};
 use super::block::Rows3;
 use super::contact::Body;
-use super::prepare::Poses;
+use super::prepare::Frames;
 
 /// Eight pairs of which some have rolling friction.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Rolling {
     /// The number of their batch.
     pub(super) batch: u32,
+    /// In m.
+    friction: Row,
     /// √I⁻¹ Rᵀd of either body, for the normal and both tangents.
     turns_a: [Rows3; 3],
     turns_b: [Rows3; 3],
@@ -23,9 +25,13 @@ pub(super) struct Rolling {
 
 impl Rolling {
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-    pub(super) fn new<L: Lanes>(number: u32, batch: &Batch, header: &HeaderRows, poses: &Poses<'_>) -> Self {
-        let mut rolling = Self { batch: number, ..Self::default() };
-        let (a, b) = (poses.gather::<L>(&batch.place_a), poses.gather::<L>(&batch.place_b));
+    pub(super) fn new<L: Lanes>(
+        number: u32,
+        friction: Row,
+        header: &HeaderRows,
+        [a, b]: &[Frames<L>; 2],
+    ) -> Self {
+        let mut rolling = Self { batch: number, friction, ..Self::default() };
         let [first, second] = &header.tangents;
         for (axis, rows) in [&header.normal, first, second].into_iter().enumerate() {
             let direction = Vec3x8::<L>::load(rows);
@@ -41,7 +47,7 @@ impl Rolling {
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn resist<L: Lanes>(
         &mut self,
-        (batch, header, points): (&Batch, &HeaderRows, &[PointRows]),
+        (batch, points): (&Batch, &[PointRows]),
         velocities: &mut [Row],
     ) {
         let (mut a, mut b) =
@@ -50,7 +56,7 @@ impl Rolling {
         for point in points {
             pressed = pressed + L::load(&point.normal_impulse);
         }
-        let limit = pressed * L::load(&header.rolling_friction);
+        let limit = pressed * L::load(&self.friction);
         for axis in 0..3 {
             let (turn_a, turn_b) =
                 (Vec3x8::<L>::load(&self.turns_a[axis]), Vec3x8::<L>::load(&self.turns_b[axis]));

@@ -69,8 +69,33 @@ struct Blocked {
     normal: Vec3,
 }
 
-/// By place, of bodies that may meet others and of all that joints hold together with them.
-type Ways = Vec<Option<Way>>;
+/// Of bodies that may meet others and of all that joints hold together with them: few of all, as a rule.
+struct Ways {
+    /// By place, the number of its way; `NOBODY` if it has none.
+    numbers: Vec<u32>,
+    /// With their places.
+    ways: Vec<(usize, Way)>,
+}
+
+impl Ways {
+    fn new(place_count: usize) -> Self {
+        Self { numbers: vec![NOBODY; place_count], ways: Vec::new() }
+    }
+
+    fn get(&self, place: usize) -> Option<&Way> {
+        self.ways.get(self.numbers[place] as usize).map(|(_, way)| way)
+    }
+
+    fn get_mut(&mut self, place: usize) -> Option<&mut Way> {
+        self.ways.get_mut(self.numbers[place] as usize).map(|(_, way)| way)
+    }
+
+    /// Gives a place that has none a way.
+    fn add(&mut self, place: usize, way: Way) {
+        self.numbers[place] = self.ways.len() as u32;
+        self.ways.push((place, way));
+    }
+}
 
 impl RigidSolver {
     /// Ends the ways of fast bodies where they would lead through others.
@@ -81,18 +106,16 @@ impl RigidSolver {
             return;
         }
         let candidates = self.candidates(&fast);
-        let mut ways: Ways = vec![None; self.lineup.places.len()];
+        let mut ways = Ways::new(self.lineup.places.len());
         for place in candidates.iter().flat_map(|candidate| candidate.places) {
-            if ways[place].is_none() {
+            if ways.get(place).is_none() {
                 for mate in self.mates(place) {
-                    ways[mate] = Some(Way::of(&self.crew.blocks[mate / LANES], mate % LANES));
+                    ways.add(mate, Way::of(&self.crew.blocks[mate / LANES], mate % LANES));
                 }
             }
         }
         let blocked = self.cut_short(&candidates, &mut ways);
-        let cut =
-            ways.iter().enumerate().filter_map(|(place, way)| Some((place, way.filter(|way| way.is_cut)?)));
-        for (place, way) in cut {
+        for (place, way) in ways.ways.into_iter().filter(|(_, way)| way.is_cut) {
             let row = &mut self.crew.velocities[place];
             way.write(&mut self.crew.blocks[place / LANES], place % LANES, row);
         }
@@ -120,7 +143,10 @@ impl RigidSolver {
             let mut has_met = false;
             for (candidate, meets) in candidates.iter().zip(&meets) {
                 let [place_a, place_b] = candidate.places;
-                let [Some(mut a), Some(mut b)] = [ways[place_a], ways[place_b]] else { continue };
+                let [Some(mut a), Some(mut b)] = candidate.places.map(|place| ways.get(place).copied())
+                else {
+                    continue;
+                };
                 let is_known = (round > 0 || !meets) && !a.is_cut && !b.is_cut;
                 if is_known || !(a.is_finite() && b.is_finite()) {
                     continue;
@@ -137,10 +163,14 @@ impl RigidSolver {
                 }
                 let time = if round + 1 == ROUNDS { 0.0 } else { time };
                 let carried = [b.carries(&a, time), a.carries(&b, time)];
-                (ways[place_a], ways[place_b]) = (Some(a), Some(b));
-                for (place, carried) in candidate.places.into_iter().zip(carried) {
+                for ((place, now), carried) in [(place_a, a), (place_b, b)].into_iter().zip(carried) {
+                    if let Some(way) = ways.get_mut(place) {
+                        *way = now;
+                    }
                     for mate in self.mates(place) {
-                        ways[mate] = ways[mate].map(|way| way.cut(time, carried));
+                        if let Some(way) = ways.get_mut(mate) {
+                            *way = way.cut(time, carried);
+                        }
                     }
                 }
                 has_met = true;
@@ -208,7 +238,7 @@ impl RigidSolver {
 
 /// Whether two bodies would meet on their ways as they are.
 fn would_meet(candidate: &Candidate<'_>, ways: &Ways) -> bool {
-    match candidate.places.map(|place| ways[place].as_ref()) {
+    match candidate.places.map(|place| ways.get(place)) {
         [Some(a), Some(b)] => a.is_finite() && b.is_finite() && candidate.first_touch(a, b).is_some(),
         _ => false,
     }

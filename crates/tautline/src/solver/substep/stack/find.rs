@@ -84,26 +84,31 @@ pub(in super::super) fn find(
 /// What touches something, in the order of the lowest places, but for islands of too many bodies.
 fn islands(groups: &Groups, solved: usize) -> Vec<Island> {
     let mut sets = Sets::new(solved);
-    let mut touches_any = vec![false; solved];
+    // Of each island by the lowest of its places, which is the root of the set; of the others 1 if they touch something.
+    let mut sizes = vec![0_u32; solved];
     for Active { place_a, place_b, moves_a, moves_b, .. } in groups.active() {
         for (place, moves) in [(place_a, moves_a), (place_b, moves_b)] {
             if *moves {
-                touches_any[*place as usize] = true;
+                sizes[*place as usize] = 1;
             }
         }
         if *moves_a && *moves_b {
             sets.join(*place_a, *place_b);
         }
     }
-    let touching = || (0..solved as u32).filter(|&place| touches_any[place as usize]);
-    // By the lowest of its places, which is the root of the set.
-    let mut sizes = vec![0; solved];
-    touching().for_each(|place| sizes[sets.root(place) as usize] += 1);
-    let mut islands: Vec<Island> = Vec::new();
-    let mut numbers = vec![0; solved];
-    for place in touching() {
+    for place in 0..solved as u32 {
         let root = sets.root(place);
-        if sizes[root as usize] > MOST_BODIES {
+        sizes[root as usize] += u32::from(root != place);
+    }
+    let mut islands: Vec<Island> = Vec::new();
+    let is_small = |size: u32| (1..=MOST_BODIES as u32).contains(&size);
+    if !(0..solved as u32).any(|place| sets.root(place) == place && is_small(sizes[place as usize])) {
+        return islands;
+    }
+    let mut numbers = vec![0; solved];
+    for place in (0..solved as u32).filter(|&place| sizes[place as usize] > 0) {
+        let root = sets.root(place);
+        if !is_small(sizes[root as usize]) {
             continue;
         }
         if root == place {
@@ -112,13 +117,10 @@ fn islands(groups: &Groups, solved: usize) -> Vec<Island> {
         }
         islands[numbers[root as usize]].places.push(place);
     }
-    if islands.is_empty() {
-        return islands;
-    }
     for active in groups.active() {
         let place = if active.moves_a { active.place_a } else { active.place_b };
         let root = sets.root(place) as usize;
-        if sizes[root] <= MOST_BODIES {
+        if is_small(sizes[root]) {
             islands[numbers[root]].touches.push((active.pair, [active.place_a, active.place_b]));
         }
     }

@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::super::super::crew::{Crew, Timing};
 use super::super::super::group::Groups;
-use super::super::super::held::{Held, HeldPoint};
+use super::super::super::held::{Held, HeldPoint, MOST_POINTS};
 use super::super::super::lineup::{Entry, Lineup, NOBODY, Role};
 use super::super::super::pairs::{Key, Pairs};
 use super::super::{Found, find};
@@ -60,9 +60,10 @@ impl Scene {
     /// Gives every contact a load, and friction that is this share of the greatest.
     fn loaded(mut self, share: f32) -> Self {
         for held in self.pairs.details.iter_mut().filter_map(|detail| detail.held.as_mut()) {
-            held.change_points(|_, point| {
-                point.continue_from(1.0, Vec3::X * (share * FRICTION), Vec3::ZERO);
-            });
+            for k in 0..MOST_POINTS {
+                let Some([anchors, friction]) = held.rows_of_point_mut(k) else { break };
+                (anchors.0[3], friction.0[4]) = (1.0, share * FRICTION);
+            }
         }
         self
     }
