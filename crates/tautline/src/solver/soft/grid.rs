@@ -57,8 +57,9 @@ impl Grid {
     }
 
     /// Relaxes every stick once, colour by colour: along rows, along columns, across cells. In this order a sweep
-    /// spreads alike in all directions; in the order of rows, two that alternate blow sheets up. The two colours across
-    /// cells are to take turns at being the last: what is always relaxed last always pushes, and a hung sheet trembles.
+    /// spreads alike in all directions; in the order of rows, two that alternate blow sheets up. Where something is held,
+    /// the two colours across cells are to take turns at being the last: under a load, what is always relaxed last always
+    /// pushes, and a hung sheet trembles. Loose sheets that collide gain energy by turns.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn sweep<L: Lanes>(
         &self,

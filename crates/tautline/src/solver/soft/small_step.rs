@@ -193,7 +193,8 @@ impl Kernel for Relax<'_> {
                 Layout::Sheet(sheet) => {
                     sheet.pull_threads(points, is_held, is_even, &mut pivots);
                     let whole = sheet.grid.whole();
-                    sheet.grid.sweep::<L>(&mut points.moving().0, lightened, &whole, (&sheet.weave, is_even));
+                    let pass = (&sheet.weave, is_even || !is_held);
+                    sheet.grid.sweep::<L>(&mut points.moving().0, lightened, &whole, pass);
                 }
                 Layout::Loose(batches) => {
                     let sweeps = if piece.balloon.is_some() { gas::SWEEPS } else { 1 };
@@ -327,8 +328,9 @@ impl Kernel for SweepWindows<'_, '_> {
     fn run<L: Lanes>(self) {
         let SoftSolver { points, pieces, lightened, touches, strands, meetings, couples, done, .. } =
             self.solver;
-        let (push, is_even) = (self.push, done.is_multiple_of(2));
+        let push = self.push;
         for piece in pieces.iter_mut() {
+            let is_even = done.is_multiple_of(2) || !piece.is_held();
             let Layout::Sheet(sheet) = &mut piece.layout else { continue };
             let Sheet { grid, weave, windows, .. } = &mut **sheet;
             let is_fine = grid.columns.max(grid.rows) >= FINE;
