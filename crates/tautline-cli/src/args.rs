@@ -96,7 +96,7 @@ pub(crate) struct Check {
     /// Repair the mesh and write it: .obj, .stl or .ply. The exit code is that of the repaired mesh.
     #[arg(long, value_name = "FILE")]
     pub(crate) repair: Option<PathBuf>,
-    /// Draw the mesh as it is in the file, with its defects marked.
+    /// Draw the mesh as it is in the file, from the front and from behind, with its defects marked.
     #[arg(long, value_name = "FILE.png")]
     pub(crate) picture: Option<PathBuf>,
 }

@@ -3,6 +3,7 @@
 mod program;
 
 use std::fs;
+use std::io::BufReader;
 use std::path::Path;
 
 use program::{errors, printed, tautline, texts};
@@ -111,7 +112,19 @@ fn the_picture_shows_defects_in_colour() {
     fs::write(folder.path().join("a.obj"), CUBE.replace("f 5 6 7 8\n", "")).unwrap();
     let text = printed_with_defects(folder.path(), &["check", "a.obj", "--picture", "a.png"]);
     assert!(text.contains("orange: open edges"), "{text}");
-    assert_eq!(fs::read(folder.path().join("a.png")).unwrap()[..8], *b"\x89PNG\r\n\x1a\n");
+    let file = BufReader::new(fs::File::open(folder.path().join("a.png")).unwrap());
+    let mut reader = png::Decoder::new(file).read_info().unwrap();
+    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+    let picture = reader.next_frame(&mut bytes).unwrap();
+    // From the front and from behind.
+    let is_orange = |pixel: &&[u8]| pixel[0] > 180 && (90..190).contains(&pixel[1]) && pixel[2] < 90;
+    let mut orange = [0; 2];
+    for row in bytes.chunks(picture.line_size) {
+        let (left, right) = row.split_at(row.len() / 2);
+        orange[0] += left.chunks(3).filter(is_orange).count();
+        orange[1] += right.chunks(3).filter(is_orange).count();
+    }
+    assert!(orange.iter().all(|&pixels| pixels > 100), "{orange:?}");
 }
 
 #[test]

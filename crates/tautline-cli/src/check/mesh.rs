@@ -3,13 +3,14 @@
 use std::path::Path;
 
 use serde_json::{Value, json};
+use tautline::Vec3;
 use tautline::mesh::TriMesh;
 use tautline::mesh::doctor::{Defect, RepairOptions, Repaired, Report, diagnose, repair};
 use tautline_scene::Error;
 use tautline_scene::export::{Format as PictureFormat, check_writable, write_png};
 use tautline_scene::marks::{LEGEND, marked};
 use tautline_scene::mesh_file::{Limits, MeshFile, read_mesh, writable, write_mesh};
-use tautline_scene::render::{Renderer, Settings};
+use tautline_scene::render::{Camera, Image, Renderer, Settings};
 
 use super::table;
 use crate::args::Check;
@@ -63,10 +64,25 @@ fn check_outputs(arguments: &Check) -> Result<(), Failure> {
     Ok(())
 }
 
+/// From the front and from behind, side by side: what one view hides, the other shows.
 fn draw(mesh: &TriMesh, report: &Report, path: &Path) -> Result<(), Failure> {
     let recording = marked(mesh, report);
-    let settings = Settings { width: 960, height: 720, supersampling: 3, ..Settings::default() };
-    Ok(write_png(&Renderer::new(&recording, settings)?.frame(0), path)?)
+    let front = Camera::three_quarter();
+    let views = [front, Vec3::new(-front.x, front.y, -front.z)].map(|direction| {
+        let points = recording.tracks.iter().flat_map(|track| track.mesh.positions.iter().copied());
+        let camera = Some(Camera::framing(points, direction, 4.0 / 3.0));
+        let settings = Settings { width: 960, height: 720, supersampling: 3, camera };
+        Ok(Renderer::new(&recording, settings)?.frame(0))
+    });
+    let [left, right]: [Result<Image, Error>; 2] = views;
+    Ok(write_png(&beside(&left?, &right?), path)?)
+}
+
+/// Two pictures of one size as one.
+fn beside(left: &Image, right: &Image) -> Image {
+    let rows = left.pixels.chunks(left.width).zip(right.pixels.chunks(right.width));
+    let pixels = rows.flat_map(|(left, right)| left.iter().chain(right)).copied().collect();
+    Image { width: left.width + right.width, height: left.height, pixels }
 }
 
 fn report_refusal(arguments: &Check, error: &Error) -> Result<(), Failure> {
