@@ -176,10 +176,18 @@ impl Walk {
     }
 
     fn is_certain(&self) -> bool {
+        self.proximity == Proximity::Intersecting || self.is_near() || self.is_narrow()
+    }
+
+    /// Whether the closest point is as near as rounding can tell.
+    fn is_near(&self) -> bool {
+        self.distance_squared <= ACCEPTED_GAP * ACCEPTED_GAP * self.reach_squared
+    }
+
+    /// Whether nothing is nearer by more than rounding: then the plane at the closest point separates.
+    fn is_narrow(&self) -> bool {
         let accepted_squared = ACCEPTED_GAP * ACCEPTED_GAP * self.reach_squared;
-        self.proximity == Proximity::Intersecting
-            || self.distance_squared <= accepted_squared
-            || self.gap * self.gap <= accepted_squared * self.distance_squared
+        self.gap * self.gap <= accepted_squared * self.distance_squared
     }
 
     fn finish(self, axis: &mut Vec3) -> Gjk {
@@ -187,6 +195,8 @@ impl Walk {
         let proximity = match self.proximity {
             // The origin is as near as rounding can tell.
             Proximity::Unresolved if converged => Proximity::Intersecting,
+            // And the direction to it tells nothing: a direction before has separated, this one does not.
+            Proximity::Separated if self.is_near() && !self.is_narrow() => Proximity::Intersecting,
             proximity => proximity,
         };
         if proximity == Proximity::Separated {
