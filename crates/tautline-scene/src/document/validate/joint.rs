@@ -55,9 +55,7 @@ pub(super) struct Sides<'a> {
 impl<'a> Sides<'a> {
     pub(super) fn new(bodies: &'a [Body]) -> Self {
         let named = |(i, body): (usize, &'a Body)| body.name().map(|name| (name, i));
-        let mut by_name = BTreeMap::new();
-        by_name.extend(bodies.iter().enumerate().filter_map(named));
-        Self { bodies, by_name }
+        Self { bodies, by_name: bodies.iter().enumerate().filter_map(named).collect() }
     }
 
     /// A body and its index, or what is wrong.

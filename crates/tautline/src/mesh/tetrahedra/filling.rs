@@ -46,9 +46,7 @@ pub(super) fn close(faces: &mut BTreeSet<Face>, tet: &Tet) {
 
 impl Filling {
     pub(super) fn new<'a>(surface: impl Iterator<Item = &'a Face>) -> Filling {
-        let mut front = BTreeSet::new();
-        front.extend(surface);
-        Filling { tets: Vec::new(), owner: BTreeMap::new(), front }
+        Filling { tets: Vec::new(), owner: BTreeMap::new(), front: surface.copied().collect() }
     }
 
     pub(super) fn front(&self) -> &BTreeSet<Face> {

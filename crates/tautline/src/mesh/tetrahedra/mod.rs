@@ -72,9 +72,7 @@ pub fn tetrahedralise(mesh: &TriMesh) -> Result<Tetrahedra, Error> {
     for cavity in filling.cavities(&points) {
         filling.replace(&cavity, advance::advance(&points, &cavity.faces, &[]));
     }
-    let (first_interior, mut faces) = (points.len(), BTreeSet::new());
-    faces.extend(surface);
-    let surface = faces;
+    let (first_interior, surface) = (points.len(), BTreeSet::from_iter(surface));
     if let Err(refusal) = fill_cavities(&mut points, &mut filling, &surface) {
         // A solid that is star-shaped as a whole can always be joined to one point, however thin its rays.
         points.truncate(first_interior);
