@@ -97,20 +97,21 @@ impl Error {
 
 /// A message for people. What it quotes of a file may be as long as the file, or have characters that a terminal obeys.
 pub(crate) fn legible(message: impl Into<String>) -> String {
-    const LONGEST: usize = 400;
-    let message = message.into();
-    if message.len() <= LONGEST && !message.contains(char::is_control) {
+    /// In bytes: of the beginning, and of the end, where it says what would be right.
+    const HEAD: usize = 100;
+    const TAIL: usize = 300;
+    let mut message: String = message.into();
+    if message.len() > HEAD + TAIL {
+        let is_boundary = |&at: &usize| message.is_char_boundary(at);
+        let head = (0..=HEAD).rev().find(is_boundary).unwrap_or(0);
+        let tail = (message.len() - TAIL..message.len()).find(is_boundary).unwrap_or(message.len());
+        message.replace_range(head..tail, "…");
+    }
+    if !message.contains(char::is_control) {
         return message;
     }
     let escaped = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
-    let count = message.chars().count();
-    if count <= LONGEST {
-        return message.chars().map(escaped).collect();
-    }
-    // What would be right stands at the end.
-    let head: String = message.chars().take(LONGEST / 4).map(escaped).collect();
-    let tail: String = message.chars().skip(count - LONGEST * 3 / 4).map(escaped).collect();
-    format!("{head}…{tail}")
+    message.chars().map(escaped).collect()
 }
 
 /// Where a document stopped making sense, and why.

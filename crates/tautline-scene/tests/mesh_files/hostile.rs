@@ -15,7 +15,7 @@ fn assert_refused(name: &str, bytes: &[u8], part: &str) {
     let refusal = parse(bytes, Format::of(Path::new(name)).unwrap(), &Limits::default()).unwrap_err();
     let time = worked() - start;
     assert!(refusal.message.contains(part), "{name}: {refusal}");
-    assert!(refusal.message.chars().count() < 500, "a message for people");
+    assert!(refusal.message.len() < 500, "a message for people");
     assert!(time < 0.1, "{name}: {time} s for {refusal}");
 }
 
