@@ -9,7 +9,7 @@ use crate::mesh::tetrahedra::predicates::faces_cross;
 const MOST_FOUND: usize = 1000;
 /// Boxes over that of a triangle that are looked at, for every triangle: triangles heaped on each other have the square of
 /// their number, and good meshes have about forty.
-const MOST_LOOKS: usize = 200;
+const MOST_LOOKS: usize = 1000;
 
 /// Pairs of triangles that cross.
 pub(super) struct Crossings {
