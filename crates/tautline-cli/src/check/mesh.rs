@@ -67,15 +67,15 @@ fn check_outputs(arguments: &Check) -> Result<(), Failure> {
 /// From the front and from behind, side by side: what one view hides, the other shows.
 fn draw(mesh: &TriMesh, report: &Report, path: &Path) -> Result<(), Failure> {
     let recording = marked(mesh, report);
-    let front = Camera::three_quarter();
-    let views = [front, Vec3::new(-front.x, front.y, -front.z)].map(|direction| {
+    let (width, height) = (960, 720);
+    let view = |direction: Vec3| {
         let points = recording.tracks.iter().flat_map(|track| track.mesh.positions.iter().copied());
-        let camera = Some(Camera::framing(points, direction, 4.0 / 3.0));
-        let settings = Settings { width: 960, height: 720, supersampling: 3, camera };
-        Ok(Renderer::new(&recording, settings)?.frame(0))
-    });
-    let [left, right]: [Result<Image, Error>; 2] = views;
-    Ok(write_png(&beside(&left?, &right?), path)?)
+        let camera = Some(Camera::framing(points, direction, width as f32 / height as f32));
+        Renderer::new(&recording, Settings { width, height, supersampling: 3, camera })
+    };
+    let front = Camera::three_quarter();
+    let behind = Vec3::new(-front.x, front.y, -front.z);
+    Ok(write_png(&beside(&view(front)?.frame(0), &view(behind)?.frame(0)), path)?)
 }
 
 /// Two pictures of one size as one.
