@@ -21,8 +21,8 @@ impl World {
     /// Advances the world by `dt` seconds, in `settings.substeps` equal substeps.
     ///
     /// The same scene, settings and sequence of `dt` give the same bits on every platform, instruction set and
-    /// number of threads. It never panics; a body with a particle that becomes non-finite, or gets
-    /// farther than 1e12 m, is frozen and reported.
+    /// number of threads. It never panics; a body with a particle that becomes non-finite, or gets farther than
+    /// 1e12 m, is frozen and reported.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] unless `dt` is from 1e-7 to 1 s; the world is as before.

@@ -1,11 +1,11 @@
 //! The paper's ordered relaxation lists (6.2): a body's sticks by graph distance from a particle.
 
-use crate::order::PutInOrder;
 use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
 use super::Stick;
+use crate::order::PutInOrder;
 
 /// For every particle v of a body the list C_v of all its sticks, nearest first and the near ones repeated.
 ///

@@ -181,13 +181,16 @@ impl Walk {
 
     /// Whether the closest point is as near as rounding can tell.
     fn is_near(&self) -> bool {
-        self.distance_squared <= ACCEPTED_GAP * ACCEPTED_GAP * self.reach_squared
+        self.distance_squared <= self.accepted_squared()
     }
 
     /// Whether nothing is nearer by more than rounding: then the plane at the closest point separates.
     fn is_narrow(&self) -> bool {
-        let accepted_squared = ACCEPTED_GAP * ACCEPTED_GAP * self.reach_squared;
-        self.gap * self.gap <= accepted_squared * self.distance_squared
+        self.gap * self.gap <= self.accepted_squared() * self.distance_squared
+    }
+
+    fn accepted_squared(&self) -> f64 {
+        ACCEPTED_GAP * ACCEPTED_GAP * self.reach_squared
     }
 
     fn finish(self, axis: &mut Vec3) -> Gjk {

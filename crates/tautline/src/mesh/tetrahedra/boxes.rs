@@ -1,7 +1,8 @@
 //! Axis-aligned boxes, and the pairs of them that overlap.
 
-use crate::order::PutInOrder;
 use glam::DVec3;
+
+use crate::order::PutInOrder;
 
 /// The smallest box around some points.
 #[derive(Clone, Copy)]

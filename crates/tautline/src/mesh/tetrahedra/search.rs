@@ -1,7 +1,6 @@
 //! Filling a small cavity without new points, by exhaustive search: the face with the fewest choices
 //! first (after Liu, Chen and Sun, "Small polyhedron reconnection", 2007).
 
-use crate::order::PutInOrder;
 use std::collections::BTreeSet;
 
 use glam::DVec3;
@@ -9,6 +8,7 @@ use glam::DVec3;
 use super::boxes::Aabb;
 use super::filling::vertices;
 use super::predicates::{Face, Tet, faces_of, orient, reach, reversed, tet_crosses_face, tet_on};
+use crate::order::PutInOrder;
 
 /// Cavities with more faces are not searched.
 pub(super) const MAX_FACES: usize = 72;

@@ -141,8 +141,8 @@ const ROUND: u32 = 64;
 const MOST_POINTS: u32 = 4;
 
 impl Colouring {
-    /// Puts the pairs into batches, and returns the places of each. `empty` is the place (counted within the range of `range_length` places) that
-    /// empty lanes name, `ground` the place in the lineup.
+    /// Puts the pairs into batches, and returns the places of each. `empty` is the place (counted within the range of
+    /// `range_length` places) that empty lanes name, `ground` the place in the lineup.
     pub(super) fn batch(
         &mut self,
         pairs: &[Active],

@@ -7,8 +7,9 @@
 //! they have bodies (Baraff 1996, Linear-time dynamics using Lagrange multipliers); loops fill in a few blocks more. f64,
 //! since heavy on light is ill-conditioned.
 
-use crate::order::PutInOrder;
 use std::collections::{BTreeMap, BTreeSet};
+
+use crate::order::PutInOrder;
 
 /// A block, by rows.
 pub(super) type Block = [[f64; 6]; 6];
