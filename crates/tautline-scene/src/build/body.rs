@@ -257,7 +257,7 @@ impl Builder {
             BodyRef::Name(_) => Some((name, found)),
             BodyRef::Index(_) => number(found.1).map(|number| (BodyRef::Index(number), found)),
         });
-        self.bodies = renamed.collect();
+        self.bodies.extend(renamed);
     }
 
     /// Whether there is a body of this name.

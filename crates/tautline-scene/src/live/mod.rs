@@ -106,7 +106,8 @@ impl LiveScene {
         joints.assign(builder.world.joints());
         attachments.assign(builder.world.attachments());
         builder.renumber(|body| bodies.number(body));
-        self.part_of = builder.parts.iter().enumerate().map(|(index, part)| (part.body, index)).collect();
+        self.part_of.clear();
+        self.part_of.extend(builder.parts.iter().enumerate().map(|(index, part)| (part.body, index)));
     }
 
     /// One step of `dt` seconds; `clock` tells the time, in s. Cues of the document are followed in steps as long as its

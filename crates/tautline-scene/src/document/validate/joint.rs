@@ -54,8 +54,13 @@ pub(super) struct Sides<'a> {
 
 impl<'a> Sides<'a> {
     pub(super) fn new(bodies: &'a [Body]) -> Self {
-        let named = |(i, body): (usize, &'a Body)| body.name().map(|name| (name, i));
-        Self { bodies, by_name: bodies.iter().enumerate().filter_map(named).collect() }
+        let mut by_name = BTreeMap::new();
+        for (i, body) in bodies.iter().enumerate() {
+            if let Some(name) = body.name() {
+                by_name.insert(name, i);
+            }
+        }
+        Self { bodies, by_name }
     }
 
     /// A body and its index, or what is wrong.

@@ -45,8 +45,9 @@ pub(super) fn close(faces: &mut BTreeSet<Face>, tet: &Tet) {
 }
 
 impl Filling {
-    pub(super) fn new<'a>(surface: impl Iterator<Item = &'a Face>) -> Filling {
-        Filling { tets: Vec::new(), owner: BTreeMap::new(), front: surface.copied().collect() }
+    /// Nothing inside a surface.
+    pub(super) fn new(surface: BTreeSet<Face>) -> Filling {
+        Filling { tets: Vec::new(), owner: BTreeMap::new(), front: surface }
     }
 
     pub(super) fn front(&self) -> &BTreeSet<Face> {

@@ -63,20 +63,20 @@ const SHARES: [f64; 5] = [0.5, 0.3, 0.7, 0.1, 0.4];
 /// degenerate; has unused or coincident vertices; crosses or touches itself (the message names the two
 /// triangles); or no division was found.
 pub fn tetrahedralise(mesh: &TriMesh) -> Result<Tetrahedra, Error> {
-    let (mut points, surface) = surface::checked(mesh)?;
+    let (mut points, faces) = surface::checked(mesh)?;
+    let (first_interior, surface) = (points.len(), BTreeSet::from_iter(faces.iter().copied()));
     let delaunay = delaunay::delaunay(&points).ok_or(MeshDefect::Flat { count: points.len() })?;
-    let mut filling = Filling::new(surface.iter());
-    for tet in conforming::conforming(&points, &surface, &delaunay) {
+    let mut filling = Filling::new(surface.clone());
+    for tet in conforming::conforming(&points, &faces, &delaunay) {
         filling.place(tet);
     }
     for cavity in filling.cavities(&points) {
         filling.replace(&cavity, advance::advance(&points, &cavity.faces, &[]));
     }
-    let (first_interior, surface) = (points.len(), BTreeSet::from_iter(surface));
     if let Err(refusal) = fill_cavities(&mut points, &mut filling, &surface) {
         // A solid that is star-shaped as a whole can always be joined to one point, however thin its rays.
         points.truncate(first_interior);
-        filling = Filling::new(surface.iter());
+        filling = Filling::new(surface.clone());
         let star = steiner::kernel_star(&mut points, &surface).ok_or(refusal)?;
         star.into_iter().for_each(|tet| filling.place(tet));
     }
