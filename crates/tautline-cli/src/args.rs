@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use tautline_scene::render::MAX_SIZE;
 
 /// Rigid bodies, cloth and rope in one world.
 ///
@@ -60,6 +61,9 @@ pub(crate) struct Run {
     /// (.npz) or a mesh for each frame (.obj, .ply); may be repeated.
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Vec<PathBuf>,
+    /// How large pictures are, in pixels, such as 1280x720; 640x480 if absent.
+    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size)]
+    pub(crate) size: Option<Size>,
     /// Write the statistics of the run.
     #[arg(long, value_name = "FILE.json")]
     pub(crate) stats: Option<PathBuf>,
@@ -142,6 +146,20 @@ pub(crate) enum Solver {
     Paper,
     /// Substeps: rigid bodies of four particles, stacks and joints solved exactly, threads of cloth and rope as wholes.
     Default,
+}
+
+/// Of a picture, in pixels.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Size {
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+}
+
+fn size(text: &str) -> Result<Size, String> {
+    let pixels = |text: &str| text.parse().ok().filter(|pixels| (1..=MAX_SIZE).contains(pixels));
+    text.split_once('x')
+        .and_then(|(width, height)| Some(Size { width: pixels(width)?, height: pixels(height)? }))
+        .ok_or_else(|| format!("it must be a width and a height of 1 to {MAX_SIZE} pixels, such as 1280x720"))
 }
 
 /// The longest run, in s: an hour of simulated time.

@@ -44,7 +44,7 @@ pub(crate) fn demo() -> Result<(), Failure> {
 
 fn run(name: &str, bars: &MultiProgress) -> Result<RunSummary, Failure> {
     let bar = bars.add(with_style(no_bar(), name));
-    let summary = perform(&find(name, &[])?, None, &files(name), &bar)?;
+    let summary = perform(&find(name, &[])?, None, (&files(name), None), &bar)?;
     bar.finish_and_clear();
     Ok(summary)
 }

@@ -9,7 +9,7 @@ use tautline_scene::export::{self, Format, Options, check_writable, frame_path};
 use tautline_scene::render;
 use tautline_scene::run::{Outcome, Run as SceneRun, RunOptions, RunSummary};
 
-use crate::args::Run;
+use crate::args::{Run, Size};
 use crate::failure::Failure;
 use crate::output::{json, make_folder_of, print, write_text};
 use crate::progress::{bar, begin, no_bar, tell};
@@ -22,7 +22,8 @@ pub(crate) fn run(arguments: &Run) -> Result<(), Failure> {
         use_solver(&mut scene, solver);
     }
     let bar = if arguments.json { no_bar() } else { bar(&scene.name) };
-    let summary = in_pool(arguments.threads, || perform(&scene, arguments.seconds, &arguments.out, &bar))??;
+    let Run { seconds, out, size, .. } = arguments;
+    let summary = in_pool(arguments.threads, || perform(&scene, *seconds, (out, *size), &bar))??;
     bar.finish_and_clear();
     let statistics = json(&summary)?;
     if let Some(path) = &arguments.stats {
@@ -35,11 +36,11 @@ pub(crate) fn run(arguments: &Run) -> Result<(), Failure> {
     print(&(describe(&summary) + &files.map(|path| describe_file(path)).collect::<String>()))
 }
 
-/// Runs a scene and writes what it looked like to each of `files`, which have been prepared.
+/// Runs a scene and writes what it looked like, in this size, to each of `files`, which have been prepared.
 pub(crate) fn perform(
     scene: &Scene,
     seconds: Option<f32>,
-    files: &[PathBuf],
+    (files, size): (&[PathBuf], Option<Size>),
     bar: &ProgressBar,
 ) -> Result<RunSummary, Failure> {
     let options = RunOptions { seconds, record: !files.is_empty() };
@@ -47,16 +48,18 @@ pub(crate) fn perform(
     let outcome = run.complete(&mut |done, total| tell(bar, done, total))?;
     for path in files {
         begin(bar, path.display().to_string());
-        export(&outcome, path, bar)?;
+        export(&outcome, path, size, bar)?;
     }
     Ok(outcome.summary)
 }
 
-fn export(outcome: &Outcome, path: &Path, bar: &ProgressBar) -> Result<(), Failure> {
+fn export(outcome: &Outcome, path: &Path, size: Option<Size>, bar: &ProgressBar) -> Result<(), Failure> {
     let Some(recording) = &outcome.recording else { return Ok(()) };
-    let camera = outcome.camera;
-    let options =
-        Options { picture: render::Settings { camera, ..render::Settings::default() }, ..Options::default() };
+    let mut picture = render::Settings { camera: outcome.camera, ..render::Settings::default() };
+    if let Some(Size { width, height }) = size {
+        (picture.width, picture.height) = (width, height);
+    }
+    let options = Options { picture, ..Options::default() };
     let mut progress = |done: usize, total: usize| tell(bar, done as u64, total as u64);
     Ok(export::write(recording, path, &options, &mut progress)?)
 }

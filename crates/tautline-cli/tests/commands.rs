@@ -64,6 +64,23 @@ fn run_writes_what_the_extension_says() {
 }
 
 #[test]
+fn pictures_are_as_large_as_asked() {
+    let folder = tempdir().unwrap();
+    let run = ["run", "tower", "--seconds", "0.1", "--out", "a.png", "--out", "a.gif", "--size"];
+    printed(folder.path(), &[&run[..], &["64x48"]].concat());
+    let read = |file: &str| fs::read(folder.path().join(file)).unwrap();
+    // Where PNG and GIF tell their size.
+    assert_eq!(
+        (&read("a.png")[16..24], &read("a.gif")[6..10]),
+        (&[0, 0, 0, 64, 0, 0, 0, 48][..], &[64, 0, 48, 0][..])
+    );
+    for size in ["64", "64x", "0x48", "64x-1", "9000x48", "64x48x2", "NaNx48"] {
+        let lines = errors(folder.path(), &[&run[..], &[size]].concat(), 2);
+        assert!(lines.join("\n").contains("such as 1280x720"), "{lines:?}");
+    }
+}
+
+#[test]
 fn the_state_depends_on_the_solver_and_not_on_the_threads() {
     let folder = tempdir().unwrap();
     let hash = |extra: &[&str]| {
