@@ -148,7 +148,8 @@ impl Crew {
             }
         };
         let mut squads: Vec<Squad<'_>> = runs.map(squad).collect();
-        let worthwhile = squads.len() > 1;
+        // A single stripe is done before a thread would be awake.
+        let worthwhile = lineup.stripes.len() > 1;
         parallel::for_each(&mut squads, worthwhile, work);
     }
 
