@@ -144,6 +144,19 @@ fn malformed_files_are_refused_with_the_place() {
 }
 
 #[test]
+fn a_header_of_lines_that_end_in_cr_alone_is_refused() {
+    let [_, little, big] = pyramids();
+    for file in [little, big] {
+        let numbers = file.windows(12).position(|window| window == b"end_header\r\n").unwrap() + 12;
+        let header = file[..numbers].iter().copied().filter(|&byte| byte != b'\n');
+        let file: Vec<u8> = header.chain(file[numbers..].iter().copied()).chain([b'\n']).collect();
+        let (place, message) = refusal("a.ply", &file);
+        assert_eq!(place, Some(Place::Line(1)));
+        assert!(message.contains("end in CR alone"), "{message}");
+    }
+}
+
+#[test]
 fn binary_refusals_name_the_byte() {
     let [_, little, _] = pyramids();
     let end = little.len();

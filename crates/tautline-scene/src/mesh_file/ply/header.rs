@@ -72,6 +72,12 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Header, Refusal> {
         let words: Vec<&str> = line.split_ascii_whitespace().take(6).collect();
         match words[..] {
             ["ply"] if i == 0 => {}
+            // Behind such a header there may be numbers with any bytes.
+            _ if i == 0 && line.starts_with("ply\r") => {
+                return Err(refuse(
+                    "the lines of the header end in CR alone: end them with LF or CR LF".into(),
+                ));
+            }
             _ if i == 0 => return Err(refuse("the first line of a PLY file is `ply`".into())),
             [] | ["comment" | "obj_info", ..] => {}
             ["format", name, _] if encoding.is_none() => encoding = Some(encoding_of(name).map_err(refuse)?),
