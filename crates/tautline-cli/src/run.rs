@@ -11,7 +11,7 @@ use tautline_scene::run::{Outcome, Run as SceneRun, RunOptions, RunSummary};
 
 use crate::args::{Run, Size};
 use crate::failure::Failure;
-use crate::output::{json, make_folder_of, print, write_text};
+use crate::output::{counted, json, make_folder_of, print, write_text};
 use crate::progress::{bar, begin, no_bar, tell};
 use crate::scene::{find, use_solver};
 
@@ -101,7 +101,10 @@ pub(crate) fn describe(summary: &RunSummary) -> String {
     let RunSummary { scene, bodies, particles, steps, seconds, ms_per_step, .. } = summary;
     let percent = |share: f32| f64::from(share) * 100.0;
     let mut text = format!(
-        "{scene}: {bodies} bodies, {particles} particles; {steps} steps ({seconds:.2} s) of {ms_per_step:.3} ms\n"
+        "{scene}: {}, {}; {} ({seconds:.2} s) of {ms_per_step:.3} ms\n",
+        counted(*bodies, ["body", "bodies"]),
+        counted(*particles, ["particle", "particles"]),
+        counted(*steps as usize, ["step", "steps"]),
     );
     text += &format!(
         "  at the end: sticks off by {:.2} % (mean {:.3} %), penetration {:.2} mm (mean {:.2} mm), {:.3} J\n",
@@ -112,7 +115,8 @@ pub(crate) fn describe(summary: &RunSummary) -> String {
         summary.kinetic_energy,
     );
     if summary.escaped > 0 || summary.nonfinite > 0 {
-        text += &format!("  {} bodies escaped, {} became non-finite\n", summary.escaped, summary.nonfinite);
+        let escaped = counted(summary.escaped, ["body", "bodies"]);
+        text += &format!("  {escaped} escaped, {} became non-finite\n", summary.nonfinite);
     }
     text + &format!("  state {}\n", summary.state_hash)
 }

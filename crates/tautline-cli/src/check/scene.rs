@@ -6,7 +6,7 @@ use tautline_scene::{Error, Problem, load};
 
 use crate::args::Check;
 use crate::failure::Failure;
-use crate::output::{print, print_json};
+use crate::output::{counted, print, print_json};
 
 pub(super) fn check(arguments: &Check) -> Result<(), Failure> {
     let file = arguments.file.display();
@@ -35,7 +35,9 @@ fn report_sound(arguments: &Check, scene: &BuiltScene) -> Result<(), Failure> {
             "file": file.to_string(), "ok": true, "problems": [], "bodies": bodies, "particles": particles,
         }));
     }
-    print(&format!("{file}: no problems; {bodies} bodies, {particles} particles\n"))
+    let (bodies, particles) =
+        (counted(bodies, ["body", "bodies"]), counted(particles, ["particle", "particles"]));
+    print(&format!("{file}: no problems; {bodies}, {particles}\n"))
 }
 
 /// One problem for every thing that is wrong.

@@ -6,7 +6,7 @@ use tautline::mesh::TriMesh;
 use tautline::mesh::doctor::{Action, Defect, Repaired, Report};
 use tautline_scene::mesh_file::MeshFile;
 
-use crate::output;
+use crate::output::{self, counted};
 
 /// Defects of a kind that are named one by one.
 const NAMED: usize = 5;
@@ -51,17 +51,14 @@ fn summary(mesh: &TriMesh, report: &Report) -> String {
     let size = if low.x <= high.x { high - low } else { tautline::Vec3::ZERO };
     let closed = report.components.iter().filter(|component| component.is_closed).count();
     let volume: f64 = report.components.iter().map(|component| component.volume).sum();
-    let components = match report.components.len() {
-        1 => "1 component".to_owned(),
-        count => format!("{count} components"),
-    };
     format!(
-        "{} vertices, {} triangles, {} × {} × {}; {components}, {closed} closed, volume {}",
-        report.vertices,
-        report.triangles,
+        "{}, {}, {} × {} × {}; {}, {closed} closed, volume {}",
+        counted(report.vertices, ["vertex", "vertices"]),
+        counted(report.triangles, ["triangle", "triangles"]),
         number(size.x.into()),
         number(size.y.into()),
         number(size.z.into()),
+        counted(report.components.len(), ["component", "components"]),
         number(volume),
     )
 }

@@ -236,12 +236,18 @@ impl fmt::Display for Defect {
                 write!(f, "a rim of {} edges: {}", vertices.len(), list(vertices))
             }
             Self::Open { vertices, is_loop: false } => {
-                write!(f, "{} open edges: {}", vertices.len().saturating_sub(1), list(vertices))
+                let count = counted(vertices.len().saturating_sub(1), ["open edge", "open edges"]);
+                write!(f, "{count}: {}", list(vertices))
             }
             Self::Crossing { triangles: [a, b] } => write!(f, "triangles {a} and {b} cross or touch"),
             Self::InsideOut { triangle } => write!(f, "the component of triangle {triangle} is inside out"),
         }
     }
+}
+
+/// So many of what has these names, alone and in numbers.
+pub(super) fn counted(count: usize, [one, many]: [&str; 2]) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
 }
 
 /// The first of some numbers.

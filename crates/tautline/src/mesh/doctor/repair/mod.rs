@@ -9,6 +9,7 @@ mod weld;
 
 use serde::Serialize;
 
+use super::report::counted;
 use super::{Report, diagnose};
 use crate::mesh::TriMesh;
 use patient::Patient;
@@ -114,6 +115,8 @@ pub enum Why {
 
 impl std::fmt::Display for Action {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let triangles = |count| counted(count, ["triangle", "triangles"]);
+        let vertices_of = |count| counted(count, ["vertex", "vertices"]);
         match self {
             Self::DroppedTriangles { why, count, .. } => {
                 let why = match why {
@@ -123,17 +126,19 @@ impl std::fmt::Display for Action {
                     Why::Wall => "that divided a solid",
                     Why::Fin => "of small fins on a surface",
                 };
-                write!(f, "dropped {count} triangles {why}")
+                write!(f, "dropped {} {why}", triangles(*count))
             }
             Self::DroppedVertices { vertices } => {
-                write!(f, "dropped {} vertices of no triangle", vertices.len())
+                write!(f, "dropped {} of no triangle", vertices_of(vertices.len()))
             }
-            Self::Welded { pairs } => write!(f, "welded {} vertices to others", pairs.len()),
-            Self::Swapped { count, .. } => write!(f, "swapped an edge of {count} triangles without area"),
-            Self::Turned { count, .. } => write!(f, "turned {count} triangles round"),
-            Self::Parted { vertices } => write!(f, "doubled {} vertices to part surfaces", vertices.len()),
-            Self::Filled { vertices, triangles } => {
-                write!(f, "filled a hole of {} edges with {triangles} triangles", vertices.len())
+            Self::Welded { pairs } => write!(f, "welded {} to others", vertices_of(pairs.len())),
+            Self::Swapped { count, .. } => write!(f, "swapped an edge of {} without area", triangles(*count)),
+            Self::Turned { count, .. } => write!(f, "turned {} round", triangles(*count)),
+            Self::Parted { vertices } => {
+                write!(f, "doubled {} to part surfaces", vertices_of(vertices.len()))
+            }
+            Self::Filled { vertices, triangles: count } => {
+                write!(f, "filled a hole of {} edges with {}", vertices.len(), triangles(*count))
             }
         }
     }
