@@ -4,7 +4,7 @@
 mod distance;
 #[path = "../../../fuzz/src/repair.rs"]
 mod repair;
-#[path = "../../../fuzz/src/world.rs"]
+#[path = "../../../fuzz/src/world/mod.rs"]
 mod world;
 
 use std::fs;
@@ -34,5 +34,5 @@ fn seeds_of_meshes_are_repaired() {
 
 #[test]
 fn seeds_of_calls_leave_a_sound_world() {
-    run_seeds("world", world::run);
+    run_seeds("world", |bytes| world::run(bytes, true));
 }
