@@ -59,6 +59,9 @@ pub(super) struct Track {
     pub(super) rushing: u32,
     #[serde(skip)]
     pub(super) turning: u32,
+    /// Bits of the lanes that turn fast enough for an exact flight, see `flight`.
+    #[serde(skip)]
+    pub(super) spinning: u32,
 }
 
 /// Among so many blocks that differ one of the same bodies is looked for.
@@ -275,7 +278,7 @@ fn take<'a, T>(slice: &mut &'a mut [T], skip: usize, count: usize) -> &'a mut [T
     head
 }
 
-fn set_lane(rows: &mut Rows3, lane: usize, value: Vec3) {
+pub(super) fn set_lane(rows: &mut Rows3, lane: usize, value: Vec3) {
     for (row, number) in rows.iter_mut().zip(value.to_array()) {
         row.0[lane] = number;
     }

@@ -79,6 +79,7 @@ impl RigidSolver {
         }
         let add = |row: &Row| Row(std::array::from_fn(|k| row.0[k] + added[k]));
         // Also to what contacts are told from, or it would count as theirs and be done again in every substep.
+        self.flights.end(body);
         for rows in [&mut self.crew.velocities, &mut self.crew.before] {
             rows[place] = add(&rows[place]);
         }
