@@ -15,8 +15,7 @@ use super::RigidSolver;
 use super::block::{Block, column, columns};
 use super::crew::{Timing, set_lane};
 use super::lineup::NOBODY;
-use crate::body::Body;
-use crate::norm::Norm;
+use crate::body::{Body, exact_inertia, exact_rotation};
 use crate::order::PutInOrder;
 use crate::parallel;
 use crate::particles::Particles;
@@ -136,7 +135,8 @@ impl RigidSolver {
     fn is_loose(&self, place: usize) -> bool {
         let is_own = self.lineup.is_place_of(place as u32, self.lineup.places[place]);
         let turns = self.crew.blocks[place / LANES].constants.response.0[place % LANES] > 0.0;
-        let is_driven = self.crew.kicks[place].0[4..7].iter().any(|&kick| kick != 0.0);
+        let is_driven =
+            self.crew.kicks.get(place).is_some_and(|kick| kick.0[4..7].iter().any(|&turn| turn != 0.0));
         is_own && turns && !is_driven && self.assembly_of(place) == NOBODY
     }
 
@@ -176,16 +176,8 @@ impl Written {
 
     /// What there is to be read from them, see `block`.
     fn spin(&self) -> Spin {
-        let x = self.positions.map(|position| position.as_dvec3());
-        let center = (x[0] + x[1] + x[2] + x[3]) * 0.25;
-        let e0 = ((x[0] + x[1]) - (x[2] + x[3])).unit();
-        let e2 = e0.cross((x[0] - x[1]) + (x[2] - x[3])).unit();
-        let moments = x.iter().zip(self.displacements).map(|(x, d)| (*x - center).cross(d.as_dvec3()));
-        let moment = moments.fold(DVec3::ZERO, |sum, moment| sum + moment) * 0.25;
-        Spin {
-            rotation: DQuat::from_mat3(&DMat3::from_cols(e0, e2.cross(e0), e2)),
-            momentum: moment / f64::from(self.time),
-        }
+        let (axes, moment) = exact_rotation(&self.positions, &self.displacements);
+        Spin { rotation: DQuat::from_mat3(&axes), momentum: moment / f64::from(self.time) }
     }
 }
 
@@ -230,11 +222,8 @@ impl Spin {
     }
 }
 
-/// Principal moments per mass, in m², of which those in the block are rounded.
 fn inertia(block: &Block, lane: usize) -> DVec3 {
-    let spread = column(&block.constants.spread, lane).as_dvec3();
-    let c = spread * spread;
-    DVec3::new(c.y + c.z, c.z + c.x, c.x + c.y)
+    exact_inertia(column(&block.constants.spread, lane))
 }
 
 /// The rotation of a substep in the body's frame that solves the equation of `rigidity`, from ω h/2.
