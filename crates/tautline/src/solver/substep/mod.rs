@@ -21,6 +21,7 @@ mod held;
 mod island;
 mod joint;
 mod keep;
+mod kick;
 mod lineup;
 mod listen;
 mod look;
@@ -308,6 +309,9 @@ impl RigidSolver {
         self.groups.mark_stacks(&found, self.pairs.pairs.len());
         let (poses, ground) = (&self.crew.poses, self.lineup.ground());
         self.groups.prepare(&self.pairs, poses, ground, &mut self.crew.accumulated, settings.instructions);
+        if self.groups.has_bounces() {
+            self.crew.write_kicks(&timing);
+        }
         self.listener.begin(&self.groups, &self.pairs, bodies, &self.lineup);
         self.stacks.begin(&found, &self.groups, &self.crew);
     }
@@ -317,7 +321,7 @@ impl RigidSolver {
         let (timing, instructions) = (self.timing(settings, h), settings.instructions);
         self.listener.approach(&self.groups, &self.crew.velocities, h);
         self.groups.meet(&mut self.crew, h, instructions);
-        self.crew.kick(&self.lineup, is_first, instructions);
+        self.crew.kick(&self.lineup, &timing, is_first);
         self.joints.warm_start(&mut self.crew);
         let aim = Aim {
             softness: self.softness,

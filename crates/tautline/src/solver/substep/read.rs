@@ -93,7 +93,9 @@ impl Kernel for Read<'_, '_> {
                 lagging[k] = columns[k] + kick[k] * lag;
             }
             store(lagging, &mut self.squad.velocities[range.clone()]);
-            store(kick, &mut self.squad.kicks[range.clone()]);
+            if let Some(kicks) = self.squad.kicks.get_mut(range.clone()) {
+                store(kick, kicks);
+            }
             let turning = track(self.timing, block, motion, &mut self.squad.tracks[i]);
             write_poses::<L>(block, turning, &mut self.squad.poses[2 * range.start..2 * range.end]);
             self.squad.accumulated[range].fill(Row::ZERO);
