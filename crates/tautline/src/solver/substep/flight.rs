@@ -21,7 +21,7 @@ use crate::parallel;
 use crate::particles::Particles;
 use crate::simd::{LANES, Row};
 
-/// What turns by less than this in a step, in rad, takes a minute for ten turns: rounding turns it by less than 1e-4 rad
+/// What turns by less than this in a step, in rad, makes some ten turns a minute: rounding turns it by less than 1e-4 rad
 /// in that time, and it is not worth an exact flight, which costs as much as the rest of its step.
 pub(super) const LEAST_TURN: f32 = 0.02;
 /// Half the angle, in rad, up to which a substep's rotation is solved for: from there on the iteration takes long, and
@@ -67,13 +67,19 @@ struct Flight {
 pub(super) struct Flights(Vec<Flight>);
 
 impl Flights {
+    fn index(&self, body: u32) -> Option<usize> {
+        self.0.binary_search_by_key(&body, |flight| flight.body).ok()
+    }
+
     fn find(&self, body: u32) -> Option<&Flight> {
-        self.0.binary_search_by_key(&body, |flight| flight.body).ok().map(|index| &self.0[index])
+        self.index(body).map(|index| &self.0[index])
     }
 
     /// Something has pushed a body.
     pub(super) fn end(&mut self, body: usize) {
-        self.0.retain(|flight| flight.body as usize != body);
+        if let Some(index) = self.index(body as u32) {
+            self.0.remove(index);
+        }
     }
 
     /// Forgets a body that is removed; those behind it move down.
