@@ -150,8 +150,8 @@ impl World {
         corners.chain(particles.iter().map(move |x| normal.dot(*x)))
     }
 
-    /// A hash of everything that moves: positions, displacements, masses and sleep, bit for bit. Equal states
-    /// have equal hashes, on every platform.
+    /// A hash of everything that moves: positions, displacements, masses and sleep, and how those spin that fly
+    /// by themselves, bit for bit. Equal states have equal hashes, on every platform.
     pub fn state_hash(&self) -> u64 {
         let store = &self.particles;
         let mut hash = Fnv::default();
@@ -159,6 +159,8 @@ impl World {
         vectors.flat_map(|vector| vector.to_array()).for_each(|number| hash.write(number.to_bits()));
         store.inverse_mass.iter().for_each(|number| hash.write(number.to_bits()));
         self.bodies.iter().for_each(|body| hash.write(u32::from(body.rest.asleep)));
+        let words = |number: f64| [number.to_bits() as u32, (number.to_bits() >> 32) as u32];
+        self.rigid.exact_numbers().flat_map(words).for_each(|word| hash.write(word));
         hash.0
     }
 }

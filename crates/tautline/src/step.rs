@@ -124,6 +124,7 @@ impl World {
         }
         watch.lap(Phase::FindContacts);
         rigid.prepare(bodies, settings, h);
+        rigid.take_off(bodies, particles, h);
         watch.lap(Phase::Solve);
         contacts
     }

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use glam::{Mat3, Quat, Vec3};
 
 use crate::body::{
-    Body, BodyKind, CollisionGroups, Frame, Motion, Substance, Surface, Truss, rigid_motion, volume_of,
+    Body, BodyKind, CollisionGroups, Frame, Motion, Substance, Surface, Truss, exact_inertia, exact_rotation,
+    volume_of,
 };
 use crate::constraint::Stick;
 use crate::error::Error;
@@ -154,11 +155,10 @@ impl<'a> BodyView<'a> {
     /// substep. Zero for any other.
     pub fn angular_velocity(&self) -> Vec3 {
         let Substance::Rigid(rigid) = &self.body.substance else { return Vec3::ZERO };
-        let (x, range) = (self.positions(), self.body.particles.clone());
-        let frame = Frame::of_particles(x);
-        let displacements = &self.particles.displacement[range];
-        let (_, angular) = rigid_motion(&frame, x, displacements, rigid.inertia_per_mass());
-        angular / self.body.displacement_time()
+        let displacements = &self.particles.displacement[self.body.particles.clone()];
+        let (axes, moment) = exact_rotation(self.positions(), displacements);
+        let turn = axes * (axes.transpose() * moment / exact_inertia(rigid.spread()));
+        (turn / f64::from(self.body.displacement_time())).as_vec3()
     }
 
     /// Velocity of the body at a point (in the world, m), in m/s: of a rigid body that of its material point there, of

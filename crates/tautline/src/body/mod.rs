@@ -34,7 +34,7 @@ pub use truss::{Truss, TrussBody};
 pub(crate) use deformable::{BuiltDeformable, Deformable};
 pub(crate) use fabric::{AirGrip, Gas, Stretch, volume_of};
 pub(crate) use flesh::{Flesh, Material, RestShape};
-pub(crate) use rigid::{CORNERS, Frame, Rigid, Traits, rigid_motion};
+pub(crate) use rigid::{CORNERS, Frame, Rigid, Traits, exact_inertia, exact_rotation, rigid_motion};
 pub(crate) use surface::Touch;
 
 /// What a body is.

@@ -7,7 +7,7 @@
 
 use std::sync::Arc;
 
-use glam::{Mat3, Quat, Vec3};
+use glam::{DMat3, DVec3, Mat3, Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
 use super::surface::{Combine, Surface};
@@ -380,4 +380,24 @@ pub(crate) fn rigid_motion(frame: &Frame, x: &[Vec3], d: &[Vec3], inertia_per_ma
     let linear = (d[0] + d[1] + d[2] + d[3]) * 0.25;
     let moment: Vec3 = x.iter().zip(d).map(|(x, d)| (*x - frame.center).cross(*d)).sum::<Vec3>() * 0.25;
     (linear, frame.axes * (frame.axes.transpose() * moment / inertia_per_mass))
+}
+
+/// The axes of four particles, and the moment of their displacements about their centre over their number, in m²:
+/// `f64` adds no rounding to that of the particles.
+pub(crate) fn exact_rotation(x: &[Vec3], d: &[Vec3]) -> (DMat3, DVec3) {
+    let x: [DVec3; 4] = std::array::from_fn(|k| x[k].as_dvec3());
+    let center = (x[0] + x[1] + x[2] + x[3]) * 0.25;
+    let e0 = ((x[0] + x[1]) - (x[2] + x[3])).unit_or(DVec3::X);
+    let across = e0.cross((x[0] - x[1]) + (x[2] - x[3]));
+    let e2 = across.try_unit().unwrap_or_else(|| e0.any_orthonormal_vector());
+    let moments = x.iter().zip(d).map(|(x, d)| (*x - center).cross(d.as_dvec3()));
+    let moment = moments.fold(DVec3::ZERO, |sum, moment| sum + moment) * 0.25;
+    (DMat3::from_cols(e0, e2.cross(e0), e2), moment)
+}
+
+/// Principal moments of inertia per mass of particles so far out, both in `f64`.
+pub(crate) fn exact_inertia(spread: Vec3) -> DVec3 {
+    let spread = spread.as_dvec3();
+    let c = spread * spread;
+    DVec3::new(c.y + c.z, c.z + c.x, c.x + c.y)
 }

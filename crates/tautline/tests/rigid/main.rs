@@ -4,6 +4,7 @@ mod bounce;
 mod control;
 mod events;
 mod faults;
+mod flight;
 mod forces;
 mod friction;
 mod measures;

@@ -228,11 +228,12 @@ impl Block {
     /// A bound of how far any point of a body is from where it was at another pose: √(|Δc|² + r² Σ|Δeₖ|²/2), in m,
     /// squared.
     #[inline(always)]
-    pub(super) fn moved_squared<L: Lanes>(&self, center: &Rows3, axes: &[Rows3; 3]) -> L {
+    pub(super) fn moved_squared<L: Lanes>(&self, center: &Rows3, [x, y]: &[Rows3; 2]) -> L {
         let shift = Vec3x8::<L>::load(&self.center) - Vec3x8::load(center);
+        let (x, y) = (Vec3x8::<L>::load(x), Vec3x8::load(y));
         let mut turn = L::splat(0.0);
-        for (now, before) in self.axes.iter().zip(axes) {
-            turn = turn + (Vec3x8::<L>::load(now) - Vec3x8::load(before)).length_squared();
+        for (now, before) in self.axes_now::<L>().0.into_iter().zip([x, y, x.cross(y)]) {
+            turn = turn + (now - before).length_squared();
         }
         let reach = L::load(&self.constants.reach);
         shift.length_squared() + reach * reach * L::splat(0.5) * turn

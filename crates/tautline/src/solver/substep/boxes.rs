@@ -2,7 +2,7 @@
 
 use glam::{Mat3, Vec3};
 
-use super::block::{Block, Rows3, column, columns};
+use super::block::{Block, Rows3, column};
 use super::crew::{Crew, Earlier, Track};
 use super::lineup::Lineup;
 use crate::body::{Body, CollisionGroups, Motion, Rigid};
@@ -39,13 +39,13 @@ impl Crew {
     /// Makes the boxes of all bodies where they are.
     pub(super) fn set_boxes(&mut self, lineup: &Lineup) {
         for (block, places) in lineup.places.chunks(LANES).enumerate() {
-            let Block { center, axes, .. } = self.blocks[block];
+            let Block { center, axes: [x, y, _], .. } = self.blocks[block];
             for (lane, &body) in places.iter().enumerate() {
                 let is_own = lineup.is_place_of((block * LANES + lane) as u32, body);
                 let room = if is_own { self.room(block, lane) } else { f32::INFINITY };
                 self.tracks[block].room.0[lane] = room;
             }
-            (self.tracks[block].boxed, self.tracks[block].leaves) = (Earlier { center, axes }, 0);
+            (self.tracks[block].boxed, self.tracks[block].leaves) = (Earlier { center, axes: [x, y] }, 0);
         }
     }
 
@@ -93,7 +93,8 @@ impl Boxed {
     /// Its axes.
     pub(super) fn axes(&self, crew: &Crew) -> Mat3 {
         let (track, lane) = crew.track_of(self.place);
-        columns(&track.boxed.axes, lane)
+        let [x, y] = track.boxed.axes.each_ref().map(|rows| column(rows, lane));
+        Mat3::from_cols(x, y, x.cross(y))
     }
 
     pub(super) fn bounds(&self, crew: &Crew, rigid: &Rigid) -> Aabb {

@@ -36,7 +36,8 @@ pub(super) struct Timing {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Earlier {
     pub(super) center: Rows3,
-    pub(super) axes: [Rows3; 3],
+    /// The first two axes, which the third one follows from.
+    pub(super) axes: [Rows3; 2],
 }
 
 /// What is remembered of a block from step to step.
@@ -59,6 +60,9 @@ pub(super) struct Track {
     pub(super) rushing: u32,
     #[serde(skip)]
     pub(super) turning: u32,
+    /// Bits of the lanes that turn fast enough for an exact flight, see `flight`.
+    #[serde(skip)]
+    pub(super) spinning: u32,
 }
 
 /// Among so many blocks that differ one of the same bodies is looked for.
@@ -73,15 +77,15 @@ pub(super) struct Crew {
     pub(super) shapes: Vec<Option<Arc<Shape>>>,
     /// Of all solid ones, in m.
     least_inner_radius: f32,
-    /// Two rows for each place, see `prepare::Poses`.
+    /// Two rows for each place, see `prepare::Poses`. When contacts are prepared, nobody needs them any more until the next
+    /// step: from then on the first eight of a block's sixteen are the velocities of its places when `accumulated` was last
+    /// brought up to date.
     pub(super) poses: Vec<Row>,
     /// One for each place, see `block`.
     pub(super) velocities: Vec<Row>,
     /// What the contacts' multipliers add to each velocity in a substep.
     pub(super) accumulated: Vec<Row>,
-    /// Velocities when `accumulated` was last brought up to date.
-    pub(super) before: Vec<Row>,
-    /// What forces add to each velocity in a substep.
+    /// What forces add to each velocity in a substep. Empty while gravity is the only one and nothing bounces.
     pub(super) kicks: Vec<Row>,
 }
 
@@ -93,7 +97,6 @@ pub(super) struct Squad<'a> {
     pub(super) poses: &'a mut [Row],
     pub(super) velocities: &'a mut [Row],
     pub(super) accumulated: &'a mut [Row],
-    pub(super) before: &'a mut [Row],
     pub(super) kicks: &'a mut [Row],
 }
 
@@ -117,13 +120,12 @@ impl Crew {
             poses: vec![Row::ZERO; 2 * count],
             velocities: vec![Row::ZERO; count],
             accumulated: vec![Row::ZERO; count],
-            before: vec![Row::ZERO; count],
-            kicks: vec![Row::ZERO; count],
+            kicks: Vec::new(),
         }
     }
 
     /// Does `work` on every one of these runs of places, which follow each other, side by side.
-    fn for_each(
+    pub(super) fn for_each(
         &mut self,
         lineup: &Lineup,
         runs: impl Iterator<Item = Range<usize>>,
@@ -131,8 +133,8 @@ impl Crew {
     ) {
         let (mut blocks, mut tracks) = (&mut self.blocks[..], &mut self.tracks[..]);
         let (mut poses, mut velocities) = (&mut self.poses[..], &mut self.velocities[..]);
-        let (mut accumulated, mut before) = (&mut self.accumulated[..], &mut self.before[..]);
-        let (mut kicks, mut done) = (&mut self.kicks[..], 0);
+        let (mut accumulated, mut kicks) = (&mut self.accumulated[..], &mut self.kicks[..]);
+        let (has_kicks, mut done) = (!kicks.is_empty(), 0);
         let squad = |run: Range<usize>| {
             let (skip, places) = (run.start - done, run.len());
             done = run.end;
@@ -143,8 +145,7 @@ impl Crew {
                 poses: take(&mut poses, 2 * skip, 2 * places),
                 velocities: take(&mut velocities, skip, places),
                 accumulated: take(&mut accumulated, skip, places),
-                before: take(&mut before, skip, places),
-                kicks: take(&mut kicks, skip, places),
+                kicks: if has_kicks { take(&mut kicks, skip, places) } else { &mut [] },
             }
         };
         let mut squads: Vec<Squad<'_>> = runs.map(squad).collect();
@@ -163,6 +164,10 @@ impl Crew {
     ) {
         let end = if is_first { lineup.places.len() } else { lineup.moving() };
         let tail = lineup.solved..end;
+        self.kicks.clear();
+        if particles.is_forced() {
+            self.kicks.resize(lineup.places.len(), Row::ZERO);
+        }
         self.for_each(lineup, lineup.stripes().chain([tail]), |squad| {
             run(timing.instructions, Read { squad, bodies, particles, timing });
         });
@@ -202,11 +207,6 @@ impl Crew {
         leavers
     }
 
-    /// Adds what forces and contacts do in a substep.
-    pub(super) fn kick(&mut self, lineup: &Lineup, is_first: bool, instructions: Instructions) {
-        self.for_each(lineup, lineup.stripes(), |squad| run(instructions, Kick { squad, is_first }));
-    }
-
     /// Whether any two bodies may approach each other in a whole step by more than the inner radius of any.
     pub(super) fn has_fast(&self, substeps: f32) -> bool {
         let way_squared = |row: &Row| Vec3::new(row.0[0], row.0[1], row.0[2]).length_squared();
@@ -222,10 +222,19 @@ impl Crew {
 
     /// Gives a body a velocity whose change is not to be given to it again in the next substep.
     pub(super) fn set_velocity(&mut self, place: usize, row: Row) {
-        let (velocity, before) = (&mut self.velocities[place], &mut self.before[place]);
+        let velocity = &mut self.velocities[place];
+        let before = &mut self.poses[place_of_before(place)];
         for ((old, before), new) in velocity.0.iter_mut().zip(&mut before.0).zip(row.0) {
             *before = if *before == *old { new } else { *before + (new - *old) };
             *old = new;
+        }
+    }
+
+    /// Adds to a velocity what counts as no contact's doing.
+    pub(super) fn push(&mut self, place: usize, added: [f32; LANES]) {
+        // Also to what contacts are told from, or it would be done again in every substep.
+        for row in [&mut self.velocities[place], &mut self.poses[place_of_before(place)]] {
+            row.0.iter_mut().zip(added).for_each(|(number, added)| *number += added);
         }
     }
 
@@ -265,7 +274,12 @@ impl Crew {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct TrackMemory {
     center: Vec3,
-    axes: [Vec3; 3],
+    axes: [Vec3; 2],
+}
+
+/// Which of the poses' rows has the velocity that a place had before.
+fn place_of_before(place: usize) -> usize {
+    place + place / LANES * LANES
 }
 
 /// `count` items of a slice after `skip`; the slice then begins behind them.
@@ -276,7 +290,7 @@ fn take<'a, T>(slice: &mut &'a mut [T], skip: usize, count: usize) -> &'a mut [T
     head
 }
 
-fn set_lane(rows: &mut Rows3, lane: usize, value: Vec3) {
+pub(super) fn set_lane(rows: &mut Rows3, lane: usize, value: Vec3) {
     for (row, number) in rows.iter_mut().zip(value.to_array()) {
         row.0[lane] = number;
     }
@@ -348,33 +362,6 @@ fn load<L: Lanes>(rows: &[Row]) -> [L; LANES] {
     L::transpose(lanes)
 }
 
-/// What has changed since the last time is what the contacts did; it is done again, until it changes again.
-struct Kick<'a, 'b> {
-    squad: &'a mut Squad<'b>,
-    is_first: bool,
-}
-
-impl Kernel for Kick<'_, '_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<L: Lanes>(self) {
-        let Squad { velocities, accumulated, before, kicks, .. } = self.squad;
-        let rows = velocities.iter_mut().zip(accumulated.iter_mut()).zip(before.iter_mut().zip(kicks.iter()));
-        for ((velocity, accumulated), (before, kick)) in rows {
-            let now = L::load(velocity);
-            let mut sum = L::load(accumulated);
-            if !self.is_first {
-                sum = sum + (now - L::load(before));
-                sum.store(accumulated);
-            }
-            let kicked = now + sum + L::load(kick);
-            kicked.store(velocity);
-            kicked.store(before);
-        }
-    }
-}
-
 struct Advance<'a, 'b> {
     squad: &'a mut Squad<'b>,
     timing: &'a Timing,
@@ -385,11 +372,12 @@ impl Kernel for Advance<'_, '_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        let Squad { blocks, velocities, accumulated, before, .. } = self.squad;
+        let Squad { blocks, poses, velocities, accumulated, .. } = self.squad;
         let chunks = velocities.chunks_exact_mut(LANES).zip(accumulated.chunks_exact_mut(LANES));
-        for ((block, (velocities, accumulated)), before) in
-            blocks.iter_mut().zip(chunks).zip(before.chunks_exact_mut(LANES))
+        for ((block, (velocities, accumulated)), poses) in
+            blocks.iter_mut().zip(chunks).zip(poses.chunks_exact_mut(2 * LANES))
         {
+            let before = &mut poses[..LANES];
             for ((velocity, accumulated), before) in velocities.iter().zip(accumulated).zip(&*before) {
                 let change = L::load(velocity) - L::load(before);
                 (L::load(accumulated) + change).store(accumulated);

@@ -45,6 +45,7 @@ impl RigidSolver {
         if self.is_hasty {
             self.crew.calm(&self.lineup, settings.instructions);
         }
+        self.land(&self.timing(settings, h));
         self.sweep(settings.instructions);
         self.listener.finish(&self.groups, &self.pairs);
         self.keep_multipliers(settings);
@@ -58,7 +59,9 @@ impl RigidSolver {
         });
         let mut runs = runs(bodies, particles);
         parallel::for_each(&mut runs, worthwhile, |run| run.write(&self.lineup, &written, h));
-        runs.into_iter().flat_map(|run| run.lost).collect()
+        let lost = runs.into_iter().flat_map(|run| run.lost).collect();
+        self.note_flights(bodies, particles);
+        lost
     }
 }
 

@@ -103,6 +103,7 @@ impl Group {
 }
 
 /// A pair as its group sees it, if it has points and a body that is solved for.
+#[inline(always)]
 fn active(lineup: &Lineup, (index, pair): (usize, &Pair)) -> Option<(Region, Active)> {
     if pair.points == 0 {
         return None;
@@ -286,7 +287,7 @@ impl Groups {
     }
 
     /// Whether any contact has restitution.
-    fn has_bounces(&self) -> bool {
+    pub(super) fn has_bounces(&self) -> bool {
         self.groups.iter().any(|group| !group.bounces.is_empty())
     }
 

@@ -14,12 +14,14 @@ mod crew;
 mod detect;
 mod elimination;
 mod finish;
+mod flight;
 mod foresee;
 mod group;
 mod held;
 mod island;
 mod joint;
 mod keep;
+mod kick;
 mod lineup;
 mod listen;
 mod look;
@@ -50,6 +52,7 @@ use crate::simd::{LANES, run};
 use contact::{Pass, Softness};
 use crew::{Crew, Timing, Track};
 use detect::{Detect, Scene};
+use flight::Flights;
 use group::Groups;
 use joint::JointSolver;
 use lineup::{Entry, Lineup, NOBODY, Role};
@@ -68,6 +71,7 @@ pub(crate) struct Kept {
     tracks: Vec<Track>,
     pairs: Pairs,
     versions: Vec<u32>,
+    flights: Flights,
     is_stale: bool,
 }
 
@@ -79,6 +83,7 @@ pub(crate) struct RigidSolver {
     pairs: Pairs,
     /// Of each body of the world, raised when it has moved.
     versions: Vec<u32>,
+    flights: Flights,
     /// Whether bodies have come, gone, fallen asleep or changed their kind since the lineup was made.
     is_stale: bool,
     /// Whether what never moves has been read.
@@ -122,6 +127,7 @@ impl RigidSolver {
     /// Forgets a body that is removed; those behind it move down.
     pub(crate) fn remove_body(&mut self, body: usize) {
         self.pairs.remove_body(body as u32);
+        self.flights.remove_body(body as u32);
         if body < self.versions.len() {
             self.versions.remove(body);
         }
@@ -138,21 +144,24 @@ impl RigidSolver {
             tracks: self.crew.tracks.clone(),
             pairs: self.pairs.clone(),
             versions: self.versions.clone(),
+            flights: self.flights.clone(),
             is_stale: self.is_stale,
         }
     }
 
     /// Goes on from what was kept, which comes from untrusted bytes.
     pub(crate) fn restore(kept: Kept, bodies: &[Body], joints: &Joints) -> Option<Self> {
-        let Kept { lineup, tracks, pairs, versions, is_stale } = kept;
+        let Kept { lineup, tracks, pairs, versions, flights, is_stale } = kept;
         let is_sound = lineup.is_valid(bodies.len())
             && tracks.len() * LANES == lineup.places.len()
             && (versions.len() == bodies.len() || is_stale)
-            && pairs.is_valid(bodies);
+            && pairs.is_valid(bodies)
+            && flights.is_valid(bodies);
         if !is_sound {
             return None;
         }
-        let mut solver = Self { groups: Groups::new(&lineup), pairs, versions, is_stale, ..Self::default() };
+        let groups = Groups::new(&lineup);
+        let mut solver = Self { groups, pairs, versions, flights, is_stale, ..Self::default() };
         if !lineup.places.is_empty() {
             solver.crew = Crew::new(&lineup, bodies);
             solver.crew.tracks = tracks;
@@ -168,6 +177,11 @@ impl RigidSolver {
     /// How many pairs of parts are near each other.
     pub(crate) fn pair_count(&self) -> usize {
         self.pairs.pairs.len()
+    }
+
+    /// What the next step depends on and the particles are too coarse for.
+    pub(crate) fn exact_numbers(&self) -> impl Iterator<Item = f64> {
+        self.flights.numbers()
     }
 
     /// Whether there is so much to do in a substep that it is cut into parts.
@@ -295,6 +309,9 @@ impl RigidSolver {
         self.groups.mark_stacks(&found, self.pairs.pairs.len());
         let (poses, ground) = (&self.crew.poses, self.lineup.ground());
         self.groups.prepare(&self.pairs, poses, ground, &mut self.crew.accumulated, settings.instructions);
+        if self.groups.has_bounces() {
+            self.crew.write_kicks(&timing);
+        }
         self.listener.begin(&self.groups, &self.pairs, bodies, &self.lineup);
         self.stacks.begin(&found, &self.groups, &self.crew);
     }
@@ -304,7 +321,7 @@ impl RigidSolver {
         let (timing, instructions) = (self.timing(settings, h), settings.instructions);
         self.listener.approach(&self.groups, &self.crew.velocities, h);
         self.groups.meet(&mut self.crew, h, instructions);
-        self.crew.kick(&self.lineup, is_first, instructions);
+        self.crew.kick(&self.lineup, &timing, is_first);
         self.joints.warm_start(&mut self.crew);
         let aim = Aim {
             softness: self.softness,

@@ -5,7 +5,7 @@ use glam::{Mat3, Vec3};
 use super::RigidSolver;
 use super::block::{column, columns};
 use super::lineup::NOBODY;
-use crate::simd::{LANES, Row};
+use crate::simd::LANES;
 
 /// A rigid body at the end of a substep.
 #[derive(Debug, Clone, Copy)]
@@ -77,11 +77,8 @@ impl RigidSolver {
         for (rows, axis) in block.axes.iter_mut().zip([turned.x_axis, turned.y_axis, turned.z_axis]) {
             rows.iter_mut().zip(axis.to_array()).for_each(|(row, number)| row.0[lane] = number);
         }
-        let add = |row: &Row| Row(std::array::from_fn(|k| row.0[k] + added[k]));
-        // Also to what contacts are told from, or it would count as theirs and be done again in every substep.
-        for rows in [&mut self.crew.velocities, &mut self.crew.before] {
-            rows[place] = add(&rows[place]);
-        }
+        self.flights.end(body);
+        self.crew.push(place, added);
     }
 }
 

@@ -51,9 +51,7 @@ impl RigidSolver {
         let linear = (k.inverse() * wanted).clamp_length_max(limit);
         let angular = turned_by(linear) * root;
         let added = [linear.x, linear.y, linear.z, 0.0, angular.x, angular.y, angular.z, 0.0];
-        // Also to what contacts are told from, or it would count as theirs and be done again in every substep.
-        for rows in [&mut self.crew.velocities, &mut self.crew.before] {
-            rows[place].0.iter_mut().zip(added).for_each(|(number, added)| *number += added);
-        }
+        self.flights.end(body);
+        self.crew.push(place, added);
     }
 }

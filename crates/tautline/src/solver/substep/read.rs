@@ -4,6 +4,7 @@ use glam::Vec3;
 
 use super::block::{Block, Motion, ParticleRows, Rows3, particles};
 use super::crew::{Squad, Timing, Track, store};
+use super::flight::LEAST_TURN;
 use crate::body::{Body, CORNERS};
 use crate::particles::Particles;
 use crate::simd::{Kernel, LANES, Lanes, Row, Vec3x8};
@@ -92,7 +93,9 @@ impl Kernel for Read<'_, '_> {
                 lagging[k] = columns[k] + kick[k] * lag;
             }
             store(lagging, &mut self.squad.velocities[range.clone()]);
-            store(kick, &mut self.squad.kicks[range.clone()]);
+            if let Some(kicks) = self.squad.kicks.get_mut(range.clone()) {
+                store(kick, kicks);
+            }
             let turning = track(self.timing, block, motion, &mut self.squad.tracks[i]);
             write_poses::<L>(block, turning, &mut self.squad.poses[2 * range.start..2 * range.end]);
             self.squad.accumulated[range].fill(Row::ZERO);
@@ -142,6 +145,7 @@ fn track<L: Lanes>(timing: &Timing, block: &Block, motion: Motion<L>, track: &mu
     let largest = inertia.x.max(inertia.y).max(inertia.z);
     let least = inertia.x.min(inertia.y).min(inertia.z);
     let swings = (swing * swing * largest).greater(square * square * least * L::splat(SLENDER));
+    track.spinning = turning.greater(reach * L::splat(LEAST_TURN)).bits();
     (track.rushing, track.turning) = (rush.bits(), whirls.bits() | swings.bits());
     let need = look_ahead + turning + L::splat(0.5 * timing.margin);
     need.store(&mut track.need);

@@ -3,6 +3,7 @@
 use glam::{DMat3, DQuat, DVec3, Mat3, Vec3};
 
 use super::block::{Block, Rows3, column, columns};
+use super::crew::set_lane;
 use crate::geometry::query::{Motion, Rounded};
 use crate::simd::Row;
 
@@ -80,9 +81,9 @@ impl Way {
     pub(super) fn write(&self, block: &mut Block, lane: usize, row: &mut Row) {
         let (start, before) = (columns(&block.start_axes, lane), columns(&block.axes, lane));
         let axes = DMat3::from_quat(DQuat::from_scaled_axis(self.turn) * self.rotation).as_mat3();
-        set(&mut block.shift, lane, self.shift.as_vec3());
+        set_lane(&mut block.shift, lane, self.shift.as_vec3());
         for (rows, axis) in block.axes.iter_mut().zip([axes.x_axis, axes.y_axis, axes.z_axis]) {
-            set(rows, lane, axis);
+            set_lane(rows, lane, axis);
         }
         let root = column(&block.constants.root_inertia, lane);
         let turned_back = |v: Vec3, [from, to]: [&Mat3; 2]| *to * (from.transpose() * v);
@@ -90,8 +91,4 @@ impl Way {
         let angular = start.transpose() * turned_back(angular, [&before, &axes]) * root;
         row.0[4..7].copy_from_slice(&angular.to_array());
     }
-}
-
-fn set(rows: &mut Rows3, lane: usize, value: Vec3) {
-    rows.iter_mut().zip(value.to_array()).for_each(|(row, number)| row.0[lane] = number);
 }
