@@ -1,6 +1,6 @@
 //! How cloth and rope move under forces, pins and grabs.
 
-use tautline::{Cloth, Grip, Rope, Settings, Vec3, World};
+use tautline::{Cloth, Grip, HalfSpace, Quat, Rope, Settings, Vec3, World};
 
 use super::{DT, center, positions, run, weightless};
 
@@ -129,4 +129,21 @@ fn a_particle_is_given_a_velocity() {
         run(&mut world, 0.1);
         assert!(velocities(&world)[9].length() > 0.05, "it takes its neighbour along");
     }
+}
+
+/// Cloth that touched a floor was moved as if it were heavier, and drove itself along: this one was 28 m away in the end.
+#[test]
+fn the_center_of_a_cloth_that_folds_up_on_ice_moves_straight_down() {
+    let mut world = World::new(Settings::default()).unwrap();
+    world.add(HalfSpace::floor(0.0).friction(0.0)).unwrap();
+    let lean = Quat::from_rotation_y(0.7) * Quat::from_rotation_x(1.5);
+    let sheet = Cloth::grid(20, 20, 2.0, 2.0).friction(0.0).position(Vec3::Y * 1.1).rotation(lean);
+    let cloth = world.add(sheet).unwrap();
+    let start = center(&world, cloth);
+    for _ in 0..300 {
+        world.step(DT).unwrap();
+        let moved = center(&world, cloth) - start;
+        assert!(moved.with_y(0.0).length() < 1e-3, "{moved}");
+    }
+    assert!(center(&world, cloth).y < 0.5);
 }

@@ -67,9 +67,8 @@ struct Load {
     place: usize,
     /// How much of that it carries, in kg.
     mass: f32,
-    /// Its own inverse masses, and its displacement before.
+    /// Its own inverse mass, and its displacement before.
     inverse_mass: f32,
-    lightened: f32,
     displacement: Vec3,
 }
 
@@ -159,7 +158,7 @@ impl Ties {
     }
 
     /// Lets particles weigh as much as what is firmly attached to them.
-    fn load(&mut self, points: &mut Points, lightened: &mut [f32], solids: &[Solid<'_>], left: f32) {
+    fn load(&mut self, points: &mut Points, solids: &[Solid<'_>], left: f32) {
         self.loads.clear();
         for (tie, stiff) in self.ties.iter().enumerate().filter(|(_, tie)| tie.compliance == 0.0) {
             let Some([particles, carried]) = stiff.carried() else { continue };
@@ -179,22 +178,18 @@ impl Ties {
                     place,
                     mass,
                     inverse_mass,
-                    lightened: lightened[place],
                     displacement,
                 });
-                let scale = 1.0 / (1.0 + mass * inverse_mass);
-                points.inverse_mass[place] *= scale;
-                lightened[place] *= scale;
+                points.inverse_mass[place] /= 1.0 + mass * inverse_mass;
             }
         }
     }
 
     /// Takes the load off particles, and moves what they carried as they have been moved.
-    fn unload(&mut self, points: &mut Points, lightened: &mut [f32], solids: &mut [Solid<'_>], left: f32) {
+    fn unload(&mut self, points: &mut Points, solids: &mut [Solid<'_>], left: f32) {
         // In reverse, since a particle may carry several.
         for load in self.loads.iter().rev() {
             points.inverse_mass[load.place] = load.inverse_mass;
-            lightened[load.place] = load.lightened;
             let tie = &mut self.ties[load.tie];
             let Some([_, carried]) = tie.carried() else { continue };
             let impulse = (points.motion(load.place) - load.displacement) * load.mass;
@@ -214,16 +209,16 @@ impl Ties {
 impl SoftSolver {
     /// Draws attachments together, and lets particles carry what is attached to them until [`SoftSolver::unload_ties`].
     pub(super) fn load_ties(&mut self, solids: &mut [Solid<'_>], moment: Moment) {
-        let Self { ties, points, lightened, .. } = self;
+        let Self { ties, points, .. } = self;
         ties.begin();
         ties.pull(points, solids, moment);
-        ties.load(points, lightened, solids, moment.left);
+        ties.load(points, solids, moment.left);
     }
 
     /// Takes from particles what they carried.
     pub(super) fn unload_ties(&mut self, solids: &mut [Solid<'_>], moment: Moment) {
-        let Self { ties, points, lightened, .. } = self;
-        ties.unload(points, lightened, solids, moment.left);
+        let Self { ties, points, .. } = self;
+        ties.unload(points, solids, moment.left);
     }
 }
 

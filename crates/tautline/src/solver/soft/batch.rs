@@ -59,9 +59,9 @@ impl Batches {
 
     /// Relaxes every stick once.
     #[inline(always)]
-    pub(super) fn sweep<L: Lanes>(&self, points: &mut Points, masses: &[f32]) {
+    pub(super) fn sweep<L: Lanes>(&self, points: &mut Points) {
         for batch in &self.batches {
-            batch.relax::<L>(points, masses, self.scale);
+            batch.relax::<L>(points, self.scale);
         }
     }
 }
@@ -79,7 +79,7 @@ impl Batch {
     }
 
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-    fn relax<L: Lanes>(&self, points: &mut Points, masses: &[f32], scale: f32) {
+    fn relax<L: Lanes>(&self, points: &mut Points, scale: f32) {
         let (mut between, mut before, mut free) = ([Row::ZERO; 3], [Row::ZERO; 3], [Row::ZERO; 2]);
         for lane in 0..self.count {
             let (a, b) = (self.ends[0][lane] as usize, self.ends[1][lane] as usize);
@@ -89,7 +89,7 @@ impl Batch {
             for (axis, numbers) in points.offset.iter().enumerate() {
                 between[axis].0[lane] = before[axis].0[lane] + (numbers[b] - numbers[a]);
             }
-            (free[0].0[lane], free[1].0[lane]) = (masses[a], masses[b]);
+            (free[0].0[lane], free[1].0[lane]) = (points.inverse_mass[a], points.inverse_mass[b]);
         }
         let [low, high, compliance] = &self.spans;
         let scale = L::splat(scale);

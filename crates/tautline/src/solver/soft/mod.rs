@@ -80,8 +80,6 @@ pub(crate) struct SoftSolver {
     touches: Vec<Touch>,
     ties: Ties,
     couples: Couples,
-    /// Inverse masses as sweeps take them.
-    lightened: Vec<f32>,
     /// Held particles that are led along: their places, and their motion in a small step (m).
     led: Vec<(usize, Vec3)>,
     /// Small steps made in this step.
@@ -137,7 +135,6 @@ impl SoftSolver {
         for number in 0..self.pieces.len() {
             self.read(number, bodies, particles, settings.gravity * (small * small), small);
         }
-        self.lightened.clone_from(&self.points.inverse_mass);
         self.meetings.forget(&self.points);
     }
 

@@ -20,9 +20,6 @@ use super::touch::{self, Push, Skin};
 use crate::body::Body;
 use crate::simd::{Instructions, Kernel, Lanes, run};
 
-/// What touches something that does not move counts as this much heavier in the next sweep, so that sheets are pulled
-/// tight around it rather than through it.
-const LIGHTNESS: f32 = 0.3;
 /// Which cloth and ropes may touch which is looked at once in so many small steps.
 const LOOK_EVERY: u32 = 4;
 /// By how much faster than now things may get until the next look.
@@ -56,7 +53,7 @@ impl Timing {
 
     fn push(&self, number: usize) -> Push {
         let Moment { left, recovery, .. } = self.moment(number);
-        Push { recovery, lightness: LIGHTNESS, left }
+        Push { recovery, left }
     }
 }
 
@@ -179,7 +176,7 @@ impl Kernel for Relax<'_> {
 
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn run<L: Lanes>(self) {
-        let SoftSolver { points, pieces, lightened, done, .. } = self.0;
+        let SoftSolver { points, pieces, done, .. } = self.0;
         let mut pivots: Vec<Pivot<L>> = Vec::new();
         let is_even = done.is_multiple_of(2);
         for piece in pieces {
@@ -188,18 +185,19 @@ impl Kernel for Relax<'_> {
                 piece.tethers.tighten::<L>(points);
             }
             let is_held = piece.is_held();
-            piece.elastic.sweep::<L>(points, lightened);
+            piece.elastic.sweep::<L>(points);
             match &mut piece.layout {
                 Layout::Sheet(sheet) => {
                     sheet.pull_threads(points, is_held, is_even, &mut pivots);
                     let whole = sheet.grid.whole();
                     let pass = (&sheet.weave, is_even || !is_held);
-                    sheet.grid.sweep::<L>(&mut points.moving().0, lightened, &whole, pass);
+                    let (mut moving, masses) = points.moving();
+                    sheet.grid.sweep::<L>(&mut moving, masses, &whole, pass);
                 }
                 Layout::Loose(batches) => {
                     let sweeps = if piece.balloon.is_some() { gas::SWEEPS } else { 1 };
                     for _ in 0..sweeps {
-                        batches.sweep::<L>(points, lightened);
+                        batches.sweep::<L>(points);
                     }
                 }
                 Layout::Rope | Layout::Net(_) | Layout::Solid(_) => {}
@@ -301,14 +299,14 @@ impl Kernel for PullRopes<'_> {
 
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn run<L: Lanes>(self) {
-        let SoftSolver { points, pieces, bundles, lightened, .. } = self.0;
+        let SoftSolver { points, pieces, bundles, .. } = self.0;
         let mut pivots: Vec<Pivot<L>> = Vec::new();
         for bundle in bundles {
             bundle.solve(points, &mut pivots);
         }
         for piece in pieces {
             if let Layout::Net(batches) = &piece.layout {
-                (0..NET_SWEEPS).for_each(|_| batches.sweep::<L>(points, lightened));
+                (0..NET_SWEEPS).for_each(|_| batches.sweep::<L>(points));
             }
         }
     }
@@ -326,8 +324,7 @@ impl Kernel for SweepWindows<'_, '_> {
 
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn run<L: Lanes>(self) {
-        let SoftSolver { points, pieces, lightened, touches, strands, meetings, couples, done, .. } =
-            self.solver;
+        let SoftSolver { points, pieces, touches, strands, meetings, couples, done, .. } = self.solver;
         let push = self.push;
         for piece in pieces.iter_mut() {
             let is_even = done.is_multiple_of(2) || !piece.is_held();
@@ -363,7 +360,7 @@ impl Kernel for SweepWindows<'_, '_> {
                 for &number in listed {
                     let touch = &mut touches[number as usize];
                     let solid = &mut self.solids[touch.solid as usize];
-                    touch.solve_again::<L>(points, lightened, solid, push);
+                    touch.solve_again::<L>(points, solid, push);
                 }
             }
         }
@@ -396,12 +393,11 @@ impl Kernel for PushOut<'_, '_> {
 
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn run<L: Lanes>(self) {
-        let SoftSolver { points, pieces, lightened, touches, .. } = self.solver;
-        lightened.copy_from_slice(&points.inverse_mass);
+        let SoftSolver { points, pieces, touches, .. } = self.solver;
         let push = self.push;
         for touch in touches {
             let solid = &mut self.solids[touch.solid as usize];
-            if touch.solve::<L>(points, lightened, solid, push) {
+            if touch.solve::<L>(points, solid, push) {
                 pieces[touch.piece as usize].rest.leans |= solid.inverse_mass == 0.0;
                 pieces[touch.piece as usize].rest.is_pushed |= solid.inverse_mass > 0.0;
             }

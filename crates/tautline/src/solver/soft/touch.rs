@@ -12,7 +12,7 @@ use super::solid::{Matter, Solid, Stance, part_bounds};
 use super::tile::{Bounds, Tile, within};
 use crate::norm::Norm;
 use crate::shape::Surface;
-use crate::simd::{LANES, Lanes, Matrix3x8, Row, Vec3x8, column, read, write};
+use crate::simd::{LANES, Lanes, Matrix3x8, Row, Vec3x8, column, read};
 
 /// Eight particles and the planes they are kept above.
 #[derive(Debug, Clone)]
@@ -196,8 +196,6 @@ fn lanes_of<L: Lanes>(axes: &Mat3) -> Matrix3x8<L> {
 pub(super) struct Push {
     /// The most by which particles that were already too deep are moved out in a small step, in m.
     pub(super) recovery: f32,
-    /// How many times lighter a particle is held to be in the next sweep after it touched what does not move.
-    pub(super) lightness: f32,
     /// Small steps of the substep that are still to come.
     pub(super) left: f32,
 }
@@ -215,18 +213,17 @@ impl Touch {
     }
 
     /// Moves its particles out of what it is about, with friction (Coulomb's law on displacements: the tangential one of
-    /// this small step is taken back, by at most μ times what is corrected along the normal). Masses for the next sweep
-    /// are written to `lightened`. Tells whether it has touched.
+    /// this small step is taken back, by at most μ times what is corrected along the normal). Tells whether
+    /// it has touched.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn solve<L: Lanes>(
         &mut self,
         points: &mut Points,
-        lightened: &mut [f32],
         solid: &mut Solid<'_>,
         push: Push,
     ) -> bool {
         self.age += 1.0;
-        self.solve_again::<L>(points, lightened, solid, push)
+        self.solve_again::<L>(points, solid, push)
     }
 
     /// As [`Touch::solve`], once more in the same small step.
@@ -234,7 +231,6 @@ impl Touch {
     pub(super) fn solve_again<L: Lanes>(
         &self,
         points: &mut Points,
-        lightened: &mut [f32],
         solid: &mut Solid<'_>,
         push: Push,
     ) -> bool {
@@ -264,8 +260,6 @@ impl Touch {
         let length = across.length_squared().max(L::splat(1e-24)).sqrt();
         let grip = (depth * L::splat(self.friction) / length).min(L::splat(1.0));
         points.moving().0.shift(place, normal * depth - across * hits.and(grip));
-        let light = hits.select(free * L::splat(push.lightness), read(lightened, place));
-        write(light, lightened, place);
         true
     }
 

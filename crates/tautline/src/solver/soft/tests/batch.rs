@@ -28,7 +28,8 @@ impl Kernel for Sweep<'_> {
         let mut points = Points::default();
         points.reset(PLACES);
         points.start = cloud(PLACES, 1);
-        self.0.sweep::<L>(&mut points, &weights(PLACES));
+        points.inverse_mass = weights(PLACES);
+        self.0.sweep::<L>(&mut points);
         points
     }
 }

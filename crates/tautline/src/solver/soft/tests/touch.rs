@@ -28,7 +28,7 @@ struct Steps<'a> {
     count: usize,
 }
 
-type Outcome = (Vec<Vec3>, (Vec3, Vec3), Vec<f32>);
+type Outcome = (Vec<Vec3>, (Vec3, Vec3));
 
 impl Kernel for Steps<'_> {
     type Output = Outcome;
@@ -42,16 +42,15 @@ impl Kernel for Steps<'_> {
         let stance = solid.stance(count as f32);
         let mut touches = Vec::new();
         find::<L>((&tiles, &boxes), &points, (0, &solid, &stance), skin, &mut touches);
-        let mut lightened = points.inverse_mass.clone();
-        let push = Push { recovery: f32::INFINITY, lightness: 0.5, left: 0.0 };
+        let push = Push { recovery: f32::INFINITY, left: 0.0 };
         for _ in 0..count {
             for touch in &mut touches {
-                touch.solve::<L>(&mut points, &mut lightened, &mut solid, push);
+                touch.solve::<L>(&mut points, &mut solid, push);
             }
             solid.advance();
         }
         let motions = (0..PLACES).map(|place| points.at(place)).collect();
-        (motions, solid.astray(), lightened)
+        (motions, solid.astray())
     }
 }
 
@@ -71,7 +70,7 @@ fn what_a_moving_ball_meets_is_pushed_out_of_its_way() {
     let (shape, before) = (ball(), around());
     let motion = [Vec3::new(0.002, 0.001, 0.0), Vec3::new(0.0, 0.001, 0.0005)];
     let count = 6;
-    let (after, _, lightened) = steps(&shape.parts()[0], [0.0; 2], motion, 0.0, count);
+    let (after, _) = steps(&shape.parts()[0], [0.0; 2], motion, 0.0, count);
     let mut pushed = 0;
     // It ends at the origin.
     let start = -motion[0] * count as f32;
@@ -85,10 +84,6 @@ fn what_a_moving_ball_meets_is_pushed_out_of_its_way() {
         let expected = before.at(place) + normal * depth.max(0.0);
         assert!(after[place].distance(expected) < 2e-5, "{place}: {} instead of {expected}", after[place]);
         pushed += usize::from(depth > 0.0);
-        let light = if depth > 1e-4 { 0.5 } else { 1.0 };
-        if depth.abs() > 1e-4 {
-            assert_eq!(lightened[place], before.inverse_mass[place] * light);
-        }
     }
     assert!((4..13).contains(&pushed), "{pushed} are pushed");
     assert_eq!(after[7], before.at(7), "where no particle is");
@@ -104,7 +99,7 @@ fn what_sticks_to_a_moving_ball_is_carried_along() {
     }
     let motion = [Vec3::ZERO, Vec3::new(0.0, 0.0, 1e-3)];
     let solid = || Solid::ball(&shape.parts()[0], [0.0; 2], motion);
-    let (after, ..) = on_all(|| Steps { solid: solid(), points: before.clone(), friction: 1e6, count: 1 });
+    let (after, _) = on_all(|| Steps { solid: solid(), points: before.clone(), friction: 1e6, count: 1 });
     for place in (0..PLACES).filter(|&place| before.presence[place] == 1.0) {
         let normal = before.at(place).normalize();
         let carried = motion[1].cross(normal);
@@ -118,7 +113,7 @@ fn what_sticks_to_a_moving_ball_is_carried_along() {
 fn momentum_is_shared_with_a_free_ball() {
     let (shape, before) = (ball(), around());
     for (friction, motion) in [(0.0, [Vec3::ZERO; 2]), (0.8, [Vec3::X * 1e-3, Vec3::Y * 2e-3])] {
-        let (after, (shift, turn), lightened) = steps(&shape.parts()[0], [0.25, 0.6], motion, friction, 1);
+        let (after, (shift, turn)) = steps(&shape.parts()[0], [0.25, 0.6], motion, friction, 1);
         let free = (0..PLACES).filter(|&place| before.presence[place] == 1.0);
         let (mut linear, mut angular, mut all) = (Vec3::ZERO, Vec3::ZERO, 0.0);
         for place in free {
@@ -132,7 +127,6 @@ fn momentum_is_shared_with_a_free_ball() {
         let (given, turned) = (shift / 2.0 / 0.25, turn / 2.0 / 0.6);
         assert!((linear + given).length() < 1e-6, "{linear} and {given}");
         assert!(friction > 0.0 || (angular + turned).length() < 1e-6, "{angular} and {turned}");
-        assert_eq!(lightened, before.inverse_mass, "only what does not move makes heavier");
     }
 }
 
