@@ -11,7 +11,22 @@ fn check(trial: Trial) {
     for seed in SEEDS {
         let found = trial.run(N, seed, Settings::default()).unwrap();
         assert!(found.at_end == 0 && found.worst <= 2, "{}, seed {seed}: {found:?}", trial.name());
+        assert!(found.mean_speed < 0.1, "{}, seed {seed}: {found:?}", trial.name());
     }
+}
+
+/// It rolled up, and rolled away over the floor, faster and faster.
+#[test]
+fn a_roll_of_cloth_lies_still() {
+    let found = Trial::Heap.run(N, 8, Settings::default()).unwrap();
+    assert!(found.mean_speed < 0.01, "{found:?}");
+}
+
+/// Its corner was carried down into a fold, and it flew about for ever, tangled.
+#[test]
+fn a_fold_that_a_corner_is_carried_into_does_not_blow_up() {
+    let found = Trial::Fold.run(40, 1, Settings::default()).unwrap();
+    assert!(found.at_end == 0 && found.mean_speed < 0.01, "{found:?}");
 }
 
 #[test]

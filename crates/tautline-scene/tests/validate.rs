@@ -19,8 +19,10 @@ fn report(outcomes: &[Outcome]) -> String {
 
 /// The cases that are as near their answer as demanded. The others are not yet; `tautline validate` tells how far
 /// off each is.
-const MET: [u32; 28] =
-    [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 13, 14, 15, 16, 17, 18, 20, 21, 22, 23, 26, 27, 28, 29, 30, 31, 32];
+const MET: [u32; 30] = [
+    1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 25, 26, 27, 28, 29, 30,
+    31, 32,
+];
 
 #[test]
 fn cases_that_were_as_near_their_answer_as_demanded_still_are() {

@@ -173,13 +173,7 @@ impl Ties {
                 let most = if mobility > 0.0 { HEAVIEST } else { IMMOVABLE };
                 let mass = weight * (1.0 / mobility).min(most / inverse_mass);
                 let displacement = points.motion(place);
-                self.loads.push(Load {
-                    tie,
-                    place,
-                    mass,
-                    inverse_mass,
-                    displacement,
-                });
+                self.loads.push(Load { tie, place, mass, inverse_mass, displacement });
                 points.inverse_mass[place] /= 1.0 + mass * inverse_mass;
             }
         }

@@ -4,6 +4,9 @@
 //! pairs are listed by pairs of tiles, each with its own margin: a list is made anew only when its two tiles have moved
 //! against each other by more than that. Tiles beside each other that face one way have none.
 //!
+//! Particles that are neighbours in the material do not push each other, but for those across the fold of a cell: it may
+//! be folded along its diagonal, but not so sharply that its halves get through each other.
+//!
 //! Every list is in the order of its particles, and the lists in that of their tiles, so that which pairs are near decides
 //! what happens, and not when lists were made.
 
@@ -25,9 +28,12 @@ const SMOOTH: f32 = 0.258_819_05;
 const MARGIN: f32 = 0.25;
 /// How far beyond the thickness, in thicknesses, pairs may be that the others of a pass push into each other.
 const PUSH: f32 = 0.1;
-/// What was too close is moved apart by this share of the distance in a small step, if that is more than else: cloth that
-/// has come through itself is not to stay there.
-const HURRY: f32 = 0.05;
+/// What was too close is moved apart at this share of the speed at which other things are: sticks turn what they are
+/// lengthened by into motion, and cloth that crumples would gain energy.
+const GENTLY: f32 = 0.1;
+/// To what share of its length the diagonal of a cell that no stick holds may be folded: by 106°. Less, and folds beside each
+/// other cross; more, and what is whipped about does.
+const SHARPEST: f32 = 0.6;
 /// Motion until the next look is expected to be as fast as that since the last, times this.
 const HASTE: f32 = 1.5;
 
@@ -47,13 +53,20 @@ pub(super) struct Member {
 /// Which particles of a cloth do not push each other, being neighbours.
 #[derive(Debug, Clone)]
 pub(super) enum Exempt {
-    /// Those no further apart than this in the material, in m: of sheets, whose `material` is known.
-    Within(f32),
+    /// Those no further apart than `reach` in the material, in m: of sheets, whose `material` is known and whose cells
+    /// have diagonals of such a length, in m.
+    Within { reach: f32, diagonal: f32 },
     /// For each particle, by place from the first on, those of higher place, ascending.
     Listed(usize, Vec<Vec<u32>>),
 }
 
 impl Exempt {
+    /// Of a sheet whose particles are kept apart by `distance` (m) and whose cells have such edges (m).
+    pub(super) fn of_sheet(distance: f32, [along, down]: [f32; 2]) -> Self {
+        let diagonal = (along * along + down * down).sqrt() * 1.001;
+        Self::Within { reach: diagonal.max(distance * 1.001), diagonal }
+    }
+
     /// Of particles at places from `start` on, with sticks between them: those no further than `distance` (m) along
     /// sticks.
     pub(super) fn along(sticks: &[Stick], count: usize, start: usize, distance: f32) -> Self {
@@ -124,7 +137,16 @@ struct List {
     moved: f32,
     distance: f32,
     friction: f32,
-    pairs: Vec<[u32; 2]>,
+    pairs: Pairs,
+    /// How far corners of a cell are kept apart across its fold, in m.
+    fold: f32,
+    folds: Pairs,
+}
+
+/// Pairs that are kept apart in one way.
+#[derive(Debug, Clone, Default)]
+struct Pairs {
+    all: Vec<[u32; 2]>,
     /// Those of them that may come too close until the next look.
     near: Vec<[u32; 2]>,
 }
@@ -219,14 +241,15 @@ impl Meetings {
                     None => List { tiles, moved: f32::INFINITY, ..self.spare.pop().unwrap_or_default() },
                 };
                 list.moved += moved;
-                (list.distance, list.friction) = (distance, friction);
+                (list.distance, list.friction, list.fold) = (distance, friction, self.fold_of(a, distance));
                 let soon = HASTE * ahead * moved;
                 if list.moved + soon > MARGIN * distance {
                     list.moved = 0.0;
                     self.list_pairs::<L>(points, &mut list);
                 }
-                list.keep_near(&self.base, distance * (1.0 + PUSH) + soon);
-                if !list.near.is_empty() {
+                list.pairs.keep_near(&self.base, distance * (1.0 + PUSH) + soon);
+                list.folds.keep_near(&self.base, list.fold * (1.0 + PUSH) + soon);
+                if !list.is_idle() {
                     let piece_of = |tile: usize| self.members[self.member_of[tile] as usize].piece;
                     list.couple = couples.number([a, b].map(piece_of));
                 }
@@ -273,6 +296,14 @@ impl Meetings {
         Some((distance, (one.friction * other.friction).sqrt()))
     }
 
+    /// How far corners of a tile's cells are kept apart across their folds, in m, where others are by `distance`.
+    fn fold_of(&self, tile: usize, distance: f32) -> f32 {
+        match self.members[self.member_of[tile] as usize].exempt {
+            Exempt::Within { diagonal, .. } => distance.min(diagonal * SHARPEST),
+            Exempt::Listed(..) => 0.0,
+        }
+    }
+
     /// How far a particle of one tile can have moved against one of the other since the last look, in m.
     fn relative_motion(&self, a: usize, b: usize) -> f32 {
         let (a, b) = (&self.motions[a], &self.motions[b]);
@@ -287,7 +318,8 @@ impl Meetings {
         let is_one = self.member_of[a] == self.member_of[b];
         let exempt = is_one.then(|| &self.members[self.member_of[a] as usize].exempt);
         let (near_a, near_b) = (self.boxes[a].grown(reach), self.boxes[b].grown(reach));
-        list.pairs.clear();
+        list.pairs.all.clear();
+        list.folds.all.clear();
         let (mut others, mut count) = ([Eight { place: 0, at: Vec3x8::<L>::zero() }; MOST_EIGHTS], 0);
         for &place in &self.tiles[b].eights {
             if inside::<L>(points, &self.base, place as usize, &near_a) != 0 {
@@ -317,7 +349,7 @@ impl Meetings {
                             (other.place, is_near.bits()),
                             a == b,
                             exempt,
-                            &mut list.pairs,
+                            [&mut list.pairs.all, &mut list.folds.all],
                         );
                     }
                 }
@@ -333,11 +365,23 @@ impl Meetings {
         (others, mut near): (usize, u32),
         is_same_tile: bool,
         exempt: Option<&Exempt>,
-        out: &mut Vec<[u32; 2]>,
+        [out, folds]: [&mut Vec<[u32; 2]>; 2],
     ) {
-        if let Some(Exempt::Within(exempt)) = exempt {
+        if let Some(&Exempt::Within { reach, diagonal }) = exempt {
             let apart = Vec3x8::<L>::read(&self.material, others) - Vec3x8::splat(get(&self.material, place));
-            near &= apart.length_squared().greater(L::splat(*exempt * *exempt)).bits();
+            let squared = apart.length_squared();
+            // Sticks go from the first corner of a cell to the last.
+            let is_across = L::splat(0.0).greater(apart.x * apart.y);
+            let is_fold = L::splat(diagonal * diagonal).greater(squared).and(is_across);
+            let mut across = near & is_fold.bits();
+            while across != 0 {
+                let other = others + across.trailing_zeros() as usize;
+                across &= across - 1;
+                if !is_same_tile || other > place {
+                    folds.push([place as u32, other as u32]);
+                }
+            }
+            near &= squared.greater(L::splat(reach * reach)).bits();
         }
         while near != 0 {
             let other = others + near.trailing_zeros() as usize;
@@ -358,22 +402,27 @@ impl Meetings {
 
     /// The pairs that may come too close until the next look, and how far each is kept apart, in m.
     pub(super) fn near(&self) -> impl Iterator<Item = ([u32; 2], f32)> {
-        self.lists.iter().flat_map(|list| list.near.iter().map(|&pair| (pair, list.distance)))
+        self.lists.iter().flat_map(|list| {
+            let pairs = list.pairs.near.iter().map(|&pair| (pair, list.distance));
+            pairs.chain(list.folds.near.iter().map(|&pair| (pair, list.fold)))
+        })
     }
 
     /// Moves all pairs apart that are too close, with friction; what was too close before by `recovery` (m) at most.
     pub(super) fn part(&self, points: &mut Points, recovery: f32, couples: &mut Couples) {
         for list in &self.lists {
-            if list.near.is_empty() {
+            if list.is_idle() {
                 continue;
             }
-            let &List { distance, friction, couple, .. } = list;
-            let most = recovery.max(HURRY * distance);
-            let parting = Parting { distance, most, friction, turn: couples.turn(couple) };
+            let &List { distance, friction, couple, fold, .. } = list;
+            let parting = Parting { distance, most: GENTLY * recovery, friction, turn: couples.turn(couple) };
+            let folding = Parting { distance: fold, friction: 0.0, ..parting };
             let mut moment = DVec3::ZERO;
-            for &[a, b] in &list.near {
-                if let Some(added) = part_pair(points, [a as usize, b as usize], parting) {
-                    moment += added.as_dvec3();
+            for (pairs, parting) in [(&list.pairs, parting), (&list.folds, folding)] {
+                for &[a, b] in &pairs.near {
+                    if let Some(added) = part_pair(points, [a as usize, b as usize], parting) {
+                        moment += added.as_dvec3();
+                    }
                 }
             }
             couples.add(couple, moment);
@@ -382,11 +431,18 @@ impl Meetings {
 }
 
 impl List {
+    /// Whether nothing in it may come too close until the next look.
+    fn is_idle(&self) -> bool {
+        self.pairs.near.is_empty() && self.folds.near.is_empty()
+    }
+}
+
+impl Pairs {
     /// Finds the pairs that are no further apart than this, in m.
     #[inline(always)]
     fn keep_near(&mut self, positions: &Coordinates, reach: f32) {
         self.near.clear();
-        for &[a, b] in &self.pairs {
+        for &[a, b] in &self.all {
             let apart = get(positions, b as usize) - get(positions, a as usize);
             if apart.length_squared() < reach * reach {
                 self.near.push([a, b]);

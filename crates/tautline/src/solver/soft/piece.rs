@@ -222,9 +222,8 @@ impl Piece {
         material: &mut Coordinates,
     ) -> Exempt {
         if let (Layout::Sheet(sheet), Some(shape)) = (&self.layout, &deformable.grid) {
-            let [along, down] = shape.edges;
             lay_flat(&sheet.grid, shape.edges, material);
-            return Exempt::Within(distance.max((along * along + down * down).sqrt()) * 1.001);
+            return Exempt::of_sheet(distance, shape.edges);
         }
         if let Some(flesh) = &deformable.flesh {
             let count = flesh.edges.iter().map(|edge| edge.a.max(edge.b) as usize + 1).max().unwrap_or(0);

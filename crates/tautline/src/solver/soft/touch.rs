@@ -216,12 +216,7 @@ impl Touch {
     /// this small step is taken back, by at most μ times what is corrected along the normal). Tells whether
     /// it has touched.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-    pub(super) fn solve<L: Lanes>(
-        &mut self,
-        points: &mut Points,
-        solid: &mut Solid<'_>,
-        push: Push,
-    ) -> bool {
+    pub(super) fn solve<L: Lanes>(&mut self, points: &mut Points, solid: &mut Solid<'_>, push: Push) -> bool {
         self.age += 1.0;
         self.solve_again::<L>(points, solid, push)
     }
