@@ -63,6 +63,11 @@ impl Batch {
         self.first as usize..(self.first + self.points) as usize
     }
 
+    /// Bits of the lanes that have a pair.
+    pub(super) fn occupied(&self) -> u32 {
+        (0..LANES).filter(|&lane| self.pairs[lane] != NO_PAIR).fold(0, |bits, lane| bits | 1 << lane)
+    }
+
     /// Those of one of its pairs among all.
     pub(super) fn range_of(&self, lane: usize) -> std::ops::Range<usize> {
         self.first as usize..self.first as usize + usize::from(self.counts[lane])

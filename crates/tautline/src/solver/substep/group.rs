@@ -209,13 +209,14 @@ impl Groups {
         &mut self.groups[index]
     }
 
-    /// Tells where the pairs of a run of numbers are, batch after batch, as their rows are in memory.
-    pub(super) fn for_each_lane(&self, run: Range<u32>, mut visit: impl FnMut(u32, Lane)) {
+    /// Tells where pairs are, batch after batch, as their rows are in memory: those in these lanes of a batch (bits).
+    pub(super) fn for_each_lane(&self, lanes_of: fn(&Batch) -> u32, mut visit: impl FnMut(u32, Lane)) {
         let in_use = (0..).zip(&self.groups).filter(|(_, group)| !group.is_empty());
         for (group, of_group) in in_use {
             for (batch, of_batch) in (0..).zip(&of_group.batches) {
-                for (lane, &pair) in (0..).zip(&of_batch.pairs).filter(|(_, pair)| run.contains(pair)) {
-                    visit(pair, Lane { group, batch, lane });
+                let lanes = lanes_of(of_batch);
+                for lane in (0..LANES as u32).filter(|lane| lanes >> lane & 1 != 0) {
+                    visit(of_batch.pairs[lane as usize], Lane { group, batch, lane });
                 }
             }
         }

@@ -6,7 +6,7 @@
 use glam::{Mat3, Vec3};
 
 use super::RigidSolver;
-use super::batch::{HeaderRows, PointRows};
+use super::batch::{Batch, HeaderRows, PointRows};
 use super::block::{column, columns};
 use super::crew::Crew;
 use super::group::{Groups, Lane};
@@ -77,7 +77,7 @@ impl Listener {
         }
         // A half-space has no place.
         let place = |body: u32| lineup.moving_place(lineup.place_of[body as usize].min(lineup.ground()));
-        groups.for_each_lane(0..pairs.pairs.len() as u32, |pair, at| {
+        groups.for_each_lane(Batch::occupied, |pair, at| {
             let Pair { a, b, .. } = pairs.pairs[pair as usize];
             if [a, b].iter().any(|&body| bodies[body as usize].reports_contacts()) {
                 self.heard.push(Heard::new(at, pair, [a, b].map(place)));

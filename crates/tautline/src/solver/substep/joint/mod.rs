@@ -168,11 +168,15 @@ impl Sets {
     }
 
     pub(super) fn root(&mut self, mut body: u32) -> u32 {
-        while self.parent[body as usize] != body {
-            self.parent[body as usize] = self.parent[self.parent[body as usize] as usize];
-            body = self.parent[body as usize];
+        loop {
+            let parent = self.parent[body as usize];
+            let next = self.parent[parent as usize];
+            if next == parent {
+                return parent;
+            }
+            self.parent[body as usize] = next;
+            body = next;
         }
-        body
     }
 
     pub(super) fn join(&mut self, a: u32, b: u32) {

@@ -17,7 +17,6 @@ mod working_set;
 use crate::order::PutInOrder;
 use crate::parallel;
 
-use super::batch::NO_PAIR;
 use super::contact::Softness;
 use super::crew::Crew;
 use super::elimination::Part;
@@ -71,7 +70,7 @@ impl Stacks {
             return;
         }
         let mut lanes: Vec<(u32, Lane)> = Vec::new();
-        groups.for_each_lane(0..NO_PAIR, |pair, lane| lanes.push((pair, lane)));
+        groups.for_each_lane(|batch| batch.stacked, |pair, lane| lanes.push((pair, lane)));
         lanes.put_in_order_by_key(|(pair, _)| *pair);
         let stacks = found.iter().map(|found| Stack::new(found, &lanes, groups, crew));
         self.stacks.extend(stacks.filter(|stack| stack.points().all(|point| point.depth() <= DEEP)));
