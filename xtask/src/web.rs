@@ -10,7 +10,7 @@ use crate::steps::Outcome;
 const PACKAGE: &str = "bindings/wasm/npm";
 const TARGET: &str = "wasm32-unknown-unknown";
 /// The most bytes of the engine as it is sent, gzipped: a little more than it has. The aim is half of that.
-const MOST_BYTES: usize = 885_000;
+const MOST_BYTES: usize = 875_000;
 
 /// Builds the package: the engine, its glue, its types.
 pub(crate) fn build(project: &Project) -> Result<(), String> {

@@ -67,9 +67,9 @@ impl Random {
         for i in 0..count.min(of) {
             all.swap(i, i + self.below(of - i));
         }
-        all.truncate(count);
-        all.sort_unstable();
-        all
+        let mut is_chosen = vec![false; of];
+        all.iter().take(count).for_each(|&number| is_chosen[number] = true);
+        (0..of).filter(|&number| is_chosen[number]).collect()
     }
 }
 

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use crate::geometry::box_tree::{Bounds, BoxTree};
 use crate::mesh::tetrahedra::predicates::faces_cross;
+use crate::order::PutInOrder;
 
 /// Pairs that are named one by one; a soup has more than anybody reads.
 const MOST_FOUND: usize = 1000;
@@ -43,7 +44,7 @@ pub(super) fn crossings(points: &[DVec3], triangles: &[[u32; 3]], included: &[bo
             break;
         }
     }
-    pairs.sort_unstable();
+    pairs.put_in_order();
     Crossings { is_complete: looks_left > 0 && pairs.len() < MOST_FOUND, pairs }
 }
 

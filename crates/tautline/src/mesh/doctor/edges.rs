@@ -1,5 +1,7 @@
 //! The edges of a triangle soup, each with the triangles that have it.
 
+use crate::order::PutInOrder;
+
 /// A side of a triangle, `a` being the lower end.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Side {
@@ -28,7 +30,7 @@ pub(super) fn sides(triangles: &[[u32; 3]], included: &[bool]) -> Vec<Side> {
             sides.push(Side { a: *from.min(to), b: *from.max(to), half_edge: (3 * triangle + k) as u32 });
         }
     }
-    sides.sort_unstable();
+    sides.put_in_order();
     sides
 }
 

@@ -1,5 +1,7 @@
 //! Open edges, one after another.
 
+use crate::order::PutInOrder;
+
 /// Open edges that follow each other.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Chain {
@@ -13,7 +15,7 @@ pub(super) struct Chain {
 pub(super) fn chains(edges: &[[u32; 2]], vertex_count: usize) -> Vec<Chain> {
     let mut at_vertex: Vec<(u32, u32)> =
         edges.iter().zip(0..).flat_map(|(&[a, b], edge)| [(a, edge), (b, edge)]).collect();
-    at_vertex.sort_unstable();
+    at_vertex.put_in_order();
     // The first of a vertex's edges that may not have been walked along.
     let mut next_at = vec![0; vertex_count];
     at_vertex.iter().enumerate().rev().for_each(|(i, &(vertex, _))| next_at[vertex as usize] = i);

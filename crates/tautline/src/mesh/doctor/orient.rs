@@ -1,5 +1,7 @@
 //! Which triangles run the wrong way round.
 
+use crate::order::PutInOrder;
+
 /// How the triangles of every patch, joined by edges of exactly two triangles, must turn to agree.
 pub(super) struct Orientation {
     /// Whether a triangle runs against most of its patch.
@@ -44,6 +46,6 @@ pub(super) fn orientation(triangles: &[[u32; 3]], partners: &[u32]) -> Orientati
             patch.iter().for_each(|&triangle| is_flipped[triangle] = !is_flipped[triangle]);
         }
     }
-    conflicts.sort_unstable();
+    conflicts.put_in_order();
     Orientation { is_flipped, conflicts }
 }

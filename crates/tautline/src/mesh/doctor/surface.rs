@@ -9,6 +9,7 @@ use super::nesting::depths;
 use super::orient::{Orientation, orientation};
 use super::{Component, Defect};
 use crate::mesh::TriMesh;
+use crate::order::PutInOrder;
 
 /// Triangles and how they hang together.
 pub(super) struct Surface<'a> {
@@ -67,11 +68,11 @@ impl<'a> Surface<'a> {
                 ([place(a), place(b)], [a, b])
             })
             .collect();
-        open.sort_unstable();
+        open.put_in_order();
         let torn = open.chunk_by(|x, y| x.0 == y.0).filter(|edges| edges.len() > 1);
         let mut at_place: Vec<(u32, u32)> =
             torn.flatten().flat_map(|(places, ends)| [(places[0], ends[0]), (places[1], ends[1])]).collect();
-        at_place.sort_unstable();
+        at_place.put_in_order();
         at_place.dedup();
         let groups = at_place.chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() > 1);
         groups
@@ -215,7 +216,7 @@ fn places(mesh: &TriMesh) -> Vec<u32> {
     let bits =
         |vertex: u32| (mesh.positions[vertex as usize] + glam::Vec3::ZERO).to_array().map(f32::to_bits);
     let mut order: Vec<u32> = (0..mesh.positions.len() as u32).collect();
-    order.sort_unstable_by_key(|&vertex| (bits(vertex), vertex));
+    order.put_in_order_by_key(|&vertex| bits(vertex));
     let mut place = vec![0; mesh.positions.len()];
     for same in order.chunk_by(|&a, &b| bits(a) == bits(b)) {
         same.iter().for_each(|&vertex| place[vertex as usize] = same[0]);

@@ -6,6 +6,7 @@ use std::collections::HashMap;
 use glam::DVec3;
 
 use super::predicates::{Tet, face_of, in_sphere, orient, tet_on, widest_axis};
+use crate::order::PutInOrder;
 
 /// The vertex at infinity that closes every hull face to a ghost tetrahedron.
 const GHOST: u32 = u32::MAX;
@@ -46,7 +47,7 @@ fn spatial_order(points: &[DVec3]) -> Vec<u32> {
             .fold(0u32, |key, bit| (0..3).fold(key, |key, k| key | ((cell[k] >> bit) & 1) << (3 * bit + k)))
     };
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
-    order.sort_by_cached_key(key);
+    order.put_in_order_by_cached_key(key);
     order
 }
 

@@ -64,7 +64,8 @@ const SHARES: [f64; 5] = [0.5, 0.3, 0.7, 0.1, 0.4];
 /// triangles); or no division was found.
 pub fn tetrahedralise(mesh: &TriMesh) -> Result<Tetrahedra, Error> {
     let (mut points, faces) = surface::checked(mesh)?;
-    let (first_interior, surface) = (points.len(), BTreeSet::from_iter(faces.iter().copied()));
+    let (first_interior, mut surface) = (points.len(), BTreeSet::new());
+    surface.extend(faces.iter().copied());
     let delaunay = delaunay::delaunay(&points).ok_or(MeshDefect::Flat { count: points.len() })?;
     let mut filling = Filling::new(surface.clone());
     for tet in conforming::conforming(&points, &faces, &delaunay) {

@@ -92,7 +92,8 @@ fn order(node_count: usize, eager: usize, edges: &[[u32; 2]]) -> Vec<(usize, Vec
     }
     // The others join the queue with the first of their neighbours.
     let mut is_queued: Vec<bool> = (0..node_count).map(|node| node < eager).collect();
-    let mut queue: BTreeSet<(usize, usize)> = (0..eager).map(|node| (adjacent[node].len(), node)).collect();
+    let mut queue = BTreeSet::new();
+    queue.extend((0..eager).map(|node| (adjacent[node].len(), node)));
     let mut order = Vec::with_capacity(node_count);
     while let Some((_, node)) = queue.pop_first() {
         let neighbours = std::mem::take(&mut adjacent[node]);

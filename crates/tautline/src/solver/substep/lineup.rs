@@ -267,7 +267,7 @@ fn sort_by_neighbourhood(entries: &mut [Entry]) {
         let cell = (entry.center - low) * scale;
         spread_bits(cell.x as u32) | spread_bits(cell.y as u32) << 1 | spread_bits(cell.z as u32) << 2
     };
-    entries.sort_by_cached_key(|entry| (code(entry), entry.body));
+    entries.put_in_order_by_cached_key(|entry| (code(entry), entry.body));
 }
 
 fn bounds(entries: &[Entry]) -> (Vec3, Vec3) {

@@ -4,6 +4,7 @@ use super::super::edges::{by_edge, sides};
 use super::super::groups::Groups;
 use super::Why;
 use super::patient::Patient;
+use crate::order::PutInOrder;
 
 const NONE: u32 = u32::MAX;
 
@@ -47,7 +48,7 @@ pub(super) fn drop_duplicates(patient: &mut Patient) {
 fn heaps(triangles: &[[u32; 3]]) -> (Vec<u32>, Vec<Vec<u32>>) {
     let mut sorted: Vec<([u32; 3], u32)> = triangles.iter().copied().zip(0..).collect();
     sorted.iter_mut().for_each(|(corners, _)| corners.sort_unstable());
-    sorted.sort_unstable();
+    sorted.put_in_order();
     let several = sorted.chunk_by(|a, b| a.0 == b.0).filter(|heap| heap.len() > 1);
     let heaps: Vec<Vec<u32>> =
         several.map(|heap| heap.iter().map(|&(_, triangle)| triangle).collect()).collect();

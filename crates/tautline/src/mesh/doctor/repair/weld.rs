@@ -7,6 +7,7 @@ use glam::{DVec3, Vec3};
 use super::Action;
 use super::patient::Patient;
 use crate::norm::Norm;
+use crate::order::PutInOrder;
 
 /// The distance of vertices that become one, as a share of the mesh's diagonal.
 const SHARE: f64 = 1e-6;
@@ -74,7 +75,7 @@ fn cells_around(position: DVec3, distance: f64) -> Vec<[i64; 3]> {
         let step = [offset % 3 - 1, offset / 3 % 3 - 1, offset / 9 - 1];
         cells.push([0, 1, 2].map(|axis: usize| middle[axis].saturating_add(step[axis])));
     }
-    cells.sort_unstable();
+    cells.put_in_order();
     cells.dedup();
     cells
 }
