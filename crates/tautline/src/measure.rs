@@ -160,7 +160,7 @@ impl World {
         store.inverse_mass.iter().for_each(|number| hash.write(number.to_bits()));
         self.bodies.iter().for_each(|body| hash.write(u32::from(body.rest.asleep)));
         let words = |number: f64| [number.to_bits() as u32, (number.to_bits() >> 32) as u32];
-        self.rigid.exact_numbers().flat_map(words).for_each(|word| hash.write(word));
+        self.rigid.exact_numbers(&self.bodies, store).flat_map(words).for_each(|word| hash.write(word));
         hash.0
     }
 }

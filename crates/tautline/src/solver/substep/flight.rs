@@ -89,8 +89,10 @@ impl Flights {
     }
 
     /// All that the next step depends on and that is not in the particles.
-    pub(super) fn numbers(&self) -> impl Iterator<Item = f64> {
-        self.0.iter().flat_map(|Flight { spin, .. }| {
+    fn numbers(&self, bodies: &[Body], particles: &Particles) -> impl Iterator<Item = f64> {
+        let goes_on =
+            |flight: &&Flight| flight.written == Written::of(&bodies[flight.body as usize], particles);
+        self.0.iter().filter(goes_on).flat_map(|Flight { spin, .. }| {
             spin.rotation.to_array().into_iter().chain(spin.momentum.to_array())
         })
     }
@@ -159,6 +161,11 @@ impl RigidSolver {
             let row = &mut self.crew.velocities[place];
             flight.spin.write(&mut blocks[place / LANES], place % LANES, row, f64::from(timing.h));
         }
+    }
+
+    /// What the next step depends on and the particles are too coarse for.
+    pub(crate) fn exact_numbers(&self, bodies: &[Body], particles: &Particles) -> impl Iterator<Item = f64> {
+        self.flights.numbers(bodies, particles)
     }
 
     /// Notes what the particles were written as.

@@ -179,11 +179,6 @@ impl RigidSolver {
         self.pairs.pairs.len()
     }
 
-    /// What the next step depends on and the particles are too coarse for.
-    pub(crate) fn exact_numbers(&self) -> impl Iterator<Item = f64> {
-        self.flights.numbers()
-    }
-
     /// Whether there is so much to do in a substep that it is cut into parts.
     pub(crate) fn is_wide(&self) -> bool {
         self.lineup.stripes.len() > 1
