@@ -4,19 +4,9 @@ use tautline::body::BodyDescription;
 use tautline::{Cloth, Error, HalfSpace, RigidBody, Rope, SoftSolid, Vec3};
 
 use super::input::Input;
-use super::{Calls, shapes};
+use super::shapes;
 
-impl Calls<'_> {
-    pub(super) fn add(&mut self) {
-        if self.has_room()
-            && let Ok(body) = body(&mut self.input)
-        {
-            self.add_body(body);
-        }
-    }
-}
-
-fn body(input: &mut Input<'_>) -> Result<BodyDescription, Error> {
+pub(super) fn body(input: &mut Input<'_>) -> Result<BodyDescription, Error> {
     let (kind, position, size) = (input.byte() % 8, input.vector(), input.number());
     Ok(match kind {
         0 => Cloth::grid(4, 4, size, size).position(position).mass(input.number()).into(),

@@ -31,9 +31,7 @@ impl Calls<'_> {
             _ => world.set_rope_length(body, vector.x),
         });
     }
-}
 
-impl Calls<'_> {
     /// What [`change`](Self::change) leaves out.
     pub(super) fn change_more(&mut self) {
         let Some(body) = self.body() else { return };

@@ -9,19 +9,9 @@ use tautline::{
 };
 
 use super::input::Input;
-use super::{Calls, shapes};
+use super::shapes;
 
-impl Calls<'_> {
-    pub(super) fn make(&mut self) {
-        if self.has_room()
-            && let Ok(body) = body(&mut self.input)
-        {
-            self.add_body(body);
-        }
-    }
-}
-
-fn body(input: &mut Input<'_>) -> Result<BodyDescription, Error> {
+pub(super) fn body(input: &mut Input<'_>) -> Result<BodyDescription, Error> {
     match input.byte() % 8 {
         0 => cloth(input),
         1 => rope(input),

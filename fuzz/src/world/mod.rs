@@ -67,13 +67,13 @@ impl Calls<'_> {
     /// The kinds from 192 to 239 came later than the seeds, of which the other bytes are.
     fn next(&mut self) {
         match self.input.byte() {
-            192..=203 => self.make(),
+            192..=203 => self.add(make::body),
             204..=219 => self.change_more(),
             220..=227 => self.change_tie(),
             228..=233 => self.look(),
             234..=239 => self.change_settings(),
             byte => match byte % 24 {
-                0..=4 => self.add(),
+                0..=4 => self.add(add::body),
                 5..=8 => self.step(),
                 9 => self.join(),
                 10 => self.attach(),
@@ -106,12 +106,13 @@ impl Calls<'_> {
         choose(&self.bodies, self.input.byte())
     }
 
-    fn has_room(&self) -> bool {
-        self.world.bodies().len() < MOST_BODIES
-    }
-
-    fn add_body(&mut self, body: BodyDescription) {
+    /// Adds what comes next, if there is room for it.
+    fn add(&mut self, next: fn(&mut Input<'_>) -> Result<BodyDescription, Error>) {
         use BodyDescription::{Cloth, Rope, SoftSolid};
+        if self.world.bodies().len() >= MOST_BODIES {
+            return;
+        }
+        let Ok(body) = next(&mut self.input) else { return };
         let is_soft = matches!(body, Cloth(_) | Rope(_) | SoftSolid(_));
         if is_soft && self.soft == MOST_SOFT {
             return;
