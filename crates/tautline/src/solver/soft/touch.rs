@@ -213,8 +213,8 @@ impl Touch {
     }
 
     /// Moves its particles out of what it is about, with friction (Coulomb's law on displacements: the tangential one of
-    /// this small step is taken back, by at most μ times what is corrected along the normal). Tells whether
-    /// it has touched.
+    /// this small step is taken back, by at most μ times what is corrected along the normal). Tells
+    /// whether it has touched.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn solve<L: Lanes>(&mut self, points: &mut Points, solid: &mut Solid<'_>, push: Push) -> bool {
         self.age += 1.0;

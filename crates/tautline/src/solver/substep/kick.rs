@@ -52,11 +52,12 @@ impl Kernel for Kick<'_, '_> {
         {
             let scales = &blocks[i].constants.gravity_scale.0;
             let kicks = kicks.get(i * LANES..(i + 1) * LANES);
+            let before = &mut poses[..LANES];
             for lane in 0..LANES {
                 let now = L::load(&velocities[lane]);
                 let mut sum = L::load(&accumulated[lane]);
                 if !self.is_first {
-                    sum = sum + (now - L::load(&poses[lane]));
+                    sum = sum + (now - L::load(&before[lane]));
                     sum.store(&mut accumulated[lane]);
                 }
                 let kick = match kicks {
@@ -65,7 +66,7 @@ impl Kernel for Kick<'_, '_> {
                 };
                 let kicked = now + sum + kick;
                 kicked.store(&mut velocities[lane]);
-                kicked.store(&mut poses[lane]);
+                kicked.store(&mut before[lane]);
             }
         }
     }
