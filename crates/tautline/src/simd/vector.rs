@@ -141,7 +141,7 @@ pub(crate) fn read<L: Lanes>(numbers: &[f32], at: usize) -> L {
 
 /// The reverse; nothing where there are not as many.
 #[inline(always)]
-fn write<L: Lanes>(lanes: L, numbers: &mut [f32], at: usize) {
+pub(crate) fn write<L: Lanes>(lanes: L, numbers: &mut [f32], at: usize) {
     if let Some(eight) = numbers[at..].first_chunk_mut::<LANES>() {
         lanes.write(eight);
     }

@@ -3,8 +3,8 @@
 
 use std::ops::Range;
 
-use super::points::{Moving, eights, first};
-use super::stick::{Span, Spans, relax_eights, relax_run};
+use super::points::{Knots, Moving};
+use super::stick::{Span, Spans, relax_run};
 use crate::simd::{LANES, Lanes};
 
 /// So many rows are relaxed in one colour before the next: a processor waits for what it has just written if it reads it
@@ -75,53 +75,31 @@ impl Grid {
         let (even, odd) = (columns.div_ceil(2), columns / 2);
         // Sticks from even columns and from odd ones.
         let (from_even, from_odd) = (odd, columns.saturating_sub(1) / 2);
+        let mut knots = Knots::of(moving, masses);
         let Range { start: top, end: bottom } = window.rows.clone();
         for block in window.rows.clone().step_by(BLOCK) {
             let places = (block..(block + BLOCK).min(bottom)).map(|row| first + row * stride);
             for place in places.clone() {
-                relax_aligned(moving, masses, (place, place + half, from_even), along);
+                relax_run(&mut knots, (place, place + half, from_even), along);
             }
             for place in places {
-                relax_run(moving, masses, (place + half, place + 1, from_odd), along);
+                relax_run(&mut knots, (place + half, place + 1, from_odd), along);
             }
         }
         for parity in 0..2 {
             for row in (top + parity..bottom - 1).step_by(2) {
                 let place = first + row * stride;
-                relax_aligned(moving, masses, (place, place + stride, even), down);
-                relax_aligned(moving, masses, (place + half, place + half + stride, odd), down);
+                relax_run(&mut knots, (place, place + stride, even), down);
+                relax_run(&mut knots, (place + half, place + half + stride, odd), down);
             }
         }
         for parity in if is_even { [0, 1] } else { [1, 0] } {
             for row in (top + parity..bottom - 1).step_by(2) {
                 let place = first + row * stride;
-                relax_aligned(moving, masses, (place, place + stride + half, from_even), across);
-                relax_run(moving, masses, (place + half, place + stride + 1, from_odd), across);
+                relax_run(&mut knots, (place, place + stride + half, from_even), across);
+                relax_run(&mut knots, (place + half, place + stride + 1, from_odd), across);
             }
         }
-    }
-}
-
-/// As [`relax_run`], and quicker where both ends stand in whole eights, as those of whole rows do whose columns are both even or
-/// odd, or meet in one cell from an even one on.
-#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-fn relax_aligned<L: Lanes>(
-    moving: &mut Moving<'_>,
-    masses: &[f32],
-    (a, b, count): (usize, usize, usize),
-    spans: Spans<L>,
-) {
-    if !a.is_multiple_of(LANES) || !b.is_multiple_of(LANES) {
-        return relax_run(moving, masses, (a, b, count), spans);
-    }
-    let (mut knots, masses) = (moving.eights(), eights(masses));
-    let (a, b, full) = (a / LANES, b / LANES, count / LANES);
-    for eight in 0..full {
-        relax_eights(&mut knots, masses, [a + eight, b + eight], None, spans);
-    }
-    if !count.is_multiple_of(LANES) {
-        let mask = first::<L>(count % LANES);
-        relax_eights(&mut knots, masses, [a + full, b + full], Some(mask), spans);
     }
 }
 

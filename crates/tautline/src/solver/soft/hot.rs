@@ -9,7 +9,7 @@ use super::grid::{Grid, Weave, Window};
 use super::points::Points;
 use super::strand::Brush;
 use super::touch::Touch;
-use crate::simd::{LANES, Lanes};
+use crate::simd::{LANES, Lanes, Vec3x8};
 
 /// How far a window reaches from the edge it is about, in edges.
 const RADIUS: usize = 6;
@@ -53,14 +53,18 @@ impl Windows {
         for row in 0..grid.rows {
             let start = grid.start + row * stride;
             for of_half in (0..half).step_by(LANES) {
-                let (even, odd) = (start + of_half, start + half + of_half);
-                self.mark::<L>(grid, points, [even, odd], along, (row, 2 * of_half));
+                let (even, odd, column) = (start + of_half, start + half + of_half, 2 * of_half);
+                let (at_even, at_odd) = (points.eight_at::<L>(even), points.eight_at::<L>(odd));
+                self.mark(grid, points, [even, odd], at_odd - at_even, along, (row, column));
                 if of_half + LANES < half {
-                    self.mark::<L>(grid, points, [odd, even + 1], along, (row, 2 * of_half + 1));
+                    let between = points.eight_at::<L>(even + 1) - at_odd;
+                    self.mark(grid, points, [odd, even + 1], between, along, (row, column + 1));
                 }
                 if row + 1 < grid.rows {
-                    self.mark::<L>(grid, points, [even, even + stride], down, (row, 2 * of_half));
-                    self.mark::<L>(grid, points, [odd, odd + stride], down, (row, 2 * of_half + 1));
+                    let between = points.eight_at::<L>(even + stride) - at_even;
+                    self.mark(grid, points, [even, even + stride], between, down, (row, column));
+                    let between = points.eight_at::<L>(odd + stride) - at_odd;
+                    self.mark(grid, points, [odd, odd + stride], between, down, (row, column + 1));
                 }
             }
         }
@@ -124,18 +128,22 @@ impl Windows {
         self.members.get((place as usize).wrapping_sub(grid.start)).copied().unwrap_or(0)
     }
 
-    /// Puts windows around those of eight sticks, in every second column, that are longer than `most` (m).
+    /// Puts windows around those of eight sticks, in every second column, that are longer than `most` (m), given what lies
+    /// between their ends.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn mark<L: Lanes>(
         &mut self,
         grid: &Grid,
         points: &Points,
         [a, b]: [usize; 2],
+        between: Vec3x8<L>,
         most: f32,
         at: (usize, usize),
     ) {
-        let between = points.eight_at::<L>(b) - points.eight_at(a);
         let is_long = between.length_squared().greater(L::splat(most * most));
+        if is_long.bits() == 0 {
+            return;
+        }
         let mut lanes = is_long.and(points.are_there::<L>(a)).and(points.are_there::<L>(b)).bits();
         while lanes != 0 {
             let lane = lanes.trailing_zeros() as usize;

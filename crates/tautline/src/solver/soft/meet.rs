@@ -13,6 +13,7 @@
 use super::grid::Grid;
 use super::pair::{Parting, part_pair};
 use super::patch::{Cone, cone_of};
+use super::point_slices::PointSlices;
 use super::points::{Coordinates, Points, get, set};
 use super::spin::Couples;
 use super::tile::{Around, Bounds, MOST_EIGHTS, Tile, inside};
@@ -410,6 +411,7 @@ impl Meetings {
 
     /// Moves all pairs apart that are too close, with friction; what was too close before by `recovery` (m) at most.
     pub(super) fn part(&self, points: &mut Points, recovery: f32, couples: &mut Couples) {
+        let mut points = PointSlices::of(points);
         for list in &self.lists {
             if list.is_idle() {
                 continue;
@@ -420,7 +422,7 @@ impl Meetings {
             let mut moment = DVec3::ZERO;
             for (pairs, parting) in [(&list.pairs, parting), (&list.folds, folding)] {
                 for &[a, b] in &pairs.near {
-                    if let Some(added) = part_pair(points, [a as usize, b as usize], parting) {
+                    if let Some(added) = part_pair(&mut points, [a as usize, b as usize], parting) {
                         moment += added.as_dvec3();
                     }
                 }

@@ -18,6 +18,7 @@ mod meet;
 mod pair;
 mod patch;
 mod piece;
+mod point_slices;
 mod points;
 mod probe;
 mod rest;
@@ -57,6 +58,7 @@ use solid::Solid;
 use spin::Couples;
 use stick::Span;
 use strand::{Segment, Strands};
+use thread::Pivot;
 use touch::Touch;
 
 pub(crate) use batch::colors;
@@ -80,6 +82,8 @@ pub(crate) struct SoftSolver {
     touches: Vec<Touch>,
     ties: Ties,
     couples: Couples,
+    /// Scratch memory.
+    pivots: Vec<Pivot>,
     /// Held particles that are led along: their places, and their motion in a small step (m).
     led: Vec<(usize, Vec3)>,
     /// Small steps made in this step.

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::points::Points;
+use super::point_slices::PointSlices;
 
 /// How two particles are kept apart.
 #[derive(Debug, Clone, Copy)]
@@ -24,7 +24,7 @@ pub(super) struct Parting {
 /// than it moved in is moved out without velocity along the normal; across, where angular momentum is s × μ d, a longer
 /// s takes a smaller d.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-pub(super) fn part_pair(points: &mut Points, [a, b]: [usize; 2], parting: Parting) -> Option<Vec3> {
+pub(super) fn part_pair(points: &mut PointSlices<'_>, [a, b]: [usize; 2], parting: Parting) -> Option<Vec3> {
     let between = points.at(b) - points.at(a);
     let squared = between.length_squared();
     let masses = [points.inverse_mass[a], points.inverse_mass[b]];

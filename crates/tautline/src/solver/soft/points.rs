@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::rest::Calming;
-use crate::simd::{LANES, Lanes, Vec3x8, read};
+use crate::simd::{LANES, Lanes, Vec3x8, read, write};
 
 /// Numbers by place: all x, all y, all z.
 pub(super) type Coordinates = [Vec<f32>; 3];
@@ -177,8 +177,11 @@ impl Points {
                 fastest_squared = fastest_squared.max(is_free.and(squared));
             } else {
                 let length = squared.max(tiny).sqrt();
-                let lost = share * (one - length * per_lively).max(zero);
-                motion = motion * is_free.and((limit / length).min(one - lost));
+                let mut kept = one - share * (one - length * per_lively).max(zero);
+                if length.greater(limit).bits() != 0 {
+                    kept = kept.min(limit / length);
+                }
+                motion = motion * is_free.and(kept);
                 fastest = fastest.max(is_free.and(length.min(limit)));
             }
             let (begin, rest) = sum(starts.read(eight), moved);
@@ -249,14 +252,6 @@ impl Moving<'_> {
     pub(super) fn eights(&mut self) -> MovingEights<'_> {
         MovingEights { start: of(self.start), offset: Eights::of(self.offset) }
     }
-
-    /// Those of two runs of `length` places, from `a` and from `b` on, which do not overlap.
-    #[inline(always)]
-    pub(super) fn two_runs(&mut self, a: usize, b: usize, length: usize) -> [MovingEights<'_>; 2] {
-        let [offset_a, offset_b] = two_runs(self.offset, a, b, length);
-        let (start_a, start_b) = (run_of(self.start, a, length), run_of(self.start, b, length));
-        [MovingEights { start: start_a, offset: offset_a }, MovingEights { start: start_b, offset: offset_b }]
-    }
 }
 
 /// Moving particles in groups of eight places.
@@ -283,35 +278,59 @@ impl MovingEights<'_> {
 
 #[inline(always)]
 fn of(numbers: &Coordinates) -> [&[[f32; LANES]]; 3] {
-    run_of(numbers, 0, numbers[0].len())
-}
-
-#[inline(always)]
-fn run_of(numbers: &Coordinates, first: usize, length: usize) -> [&[[f32; LANES]]; 3] {
-    let [x, y, z] = numbers;
-    let end = first + length;
-    let [x, y, z] = [eights(&x[first..end]), eights(&y[first..end]), eights(&z[first..end])];
-    let count = length / LANES;
+    let [x, y, z] = numbers.each_ref().map(|numbers| eights(numbers));
+    let count = x.len().min(y.len()).min(z.len());
     [&x[..count], &y[..count], &z[..count]]
 }
 
-#[inline(always)]
-fn two_runs(numbers: &mut Coordinates, a: usize, b: usize, length: usize) -> [Eights<'_>; 2] {
-    let [x, y, z] = numbers;
-    let ([xa, xb], [ya, yb], [za, zb]) =
-        (split(x, a, b, length), split(y, a, b, length), split(z, a, b, length));
-    let count = length / LANES;
-    let first = Eights([&mut xa[..count], &mut ya[..count], &mut za[..count]]);
-    [first, Eights([&mut xb[..count], &mut yb[..count], &mut zb[..count]])]
+/// Moving particles, eight from any place on, and their inverse masses: as many of all, so that one comparison tells whether
+/// there are eight.
+pub(super) struct Knots<'a> {
+    start: [&'a [f32]; 3],
+    offset: [&'a mut [f32]; 3],
+    inverse_mass: &'a [f32],
 }
 
-#[inline(always)]
-fn split(numbers: &mut [f32], a: usize, b: usize, length: usize) -> [&mut [[f32; LANES]]; 2] {
-    let (low, high) = if a < b { (a, b) } else { (b, a) };
-    let (head, tail) = numbers.split_at_mut(high);
-    let first = head[low..low + length].as_chunks_mut().0;
-    let second = tail[..length].as_chunks_mut().0;
-    if a < b { [first, second] } else { [second, first] }
+impl<'a> Knots<'a> {
+    #[inline(always)]
+    pub(super) fn of<'b: 'a>(moving: &'a mut Moving<'b>, masses: &'a [f32]) -> Self {
+        let [x, y, z] = &*moving.start;
+        let [u, v, w] = &mut *moving.offset;
+        let count = [x, y, z, u, v, w].iter().map(|numbers| numbers.len()).fold(masses.len(), usize::min);
+        Self {
+            start: [&x[..count], &y[..count], &z[..count]],
+            offset: [&mut u[..count], &mut v[..count], &mut w[..count]],
+            inverse_mass: &masses[..count],
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn has_eight_at(&self, place: usize) -> bool {
+        self.inverse_mass.len().checked_sub(LANES).is_some_and(|last| place <= last)
+    }
+
+    /// Where the small step of the eight from `place` on began, and how far they are from there.
+    #[inline(always)]
+    pub(super) fn read<L: Lanes>(&self, place: usize) -> [Vec3x8<L>; 2] {
+        let [x, y, z] = self.start;
+        let [u, v, w] = &self.offset;
+        let start = Vec3x8::new(read(x, place), read(y, place), read(z, place));
+        [start, Vec3x8::new(read(u, place), read(v, place), read(w, place))]
+    }
+
+    #[inline(always)]
+    pub(super) fn inverse_masses<L: Lanes>(&self, place: usize) -> L {
+        read(self.inverse_mass, place)
+    }
+
+    /// Puts them so far from where their small step began.
+    #[inline(always)]
+    pub(super) fn write<L: Lanes>(&mut self, place: usize, offset: Vec3x8<L>) {
+        let [u, v, w] = &mut self.offset;
+        write(offset.x, u, place);
+        write(offset.y, v, place);
+        write(offset.z, w, place);
+    }
 }
 
 /// Coordinates in groups of eight places: what is read and written so needs one comparison, and no more looking up of

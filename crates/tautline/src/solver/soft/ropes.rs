@@ -61,20 +61,20 @@ impl Bundle {
 
     /// Solves all sticks of each rope together and sweeps once over them; again for ropes that carry much.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-    pub(super) fn solve<L: Lanes>(&mut self, points: &mut Points, pivots: &mut Vec<Pivot<L>>) {
+    pub(super) fn solve<L: Lanes>(&mut self, points: &mut Points, pivots: &mut Vec<Pivot>) {
         self.read(points);
-        self.pull(pivots);
+        self.pull::<L>(pivots);
         let solves = self.solves(points);
         let most = solves.into_iter().fold(1, u32::max);
         for done in 1..most {
             (0..self.ropes.len()).filter(|&lane| solves[lane] == done).for_each(|lane| self.hold(lane));
-            self.pull(pivots);
+            self.pull::<L>(pivots);
         }
         self.write(points);
     }
 
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-    fn pull<L: Lanes>(&mut self, pivots: &mut Vec<Pivot<L>>) {
+    fn pull<L: Lanes>(&mut self, pivots: &mut Vec<Pivot>) {
         let Self { knots, spans, stiff, mean_inverse_mass, start, offset, masses, .. } = self;
         let mut moving = Moving { start, offset };
         let threads = Threads {
@@ -85,7 +85,7 @@ impl Bundle {
             spans: &spans[..],
             regularisation: REGULARISATION * *mean_inverse_mass,
         };
-        threads.solve(&mut moving, masses, pivots);
+        threads.solve::<L>(&mut moving, masses, pivots);
         for stick in 0..*knots - 1 {
             let of_stick: Spans<L> = (&stiff[..]).span(stick);
             relax_spans(&mut moving, masses, [stick * LANES, (stick + 1) * LANES], of_stick);

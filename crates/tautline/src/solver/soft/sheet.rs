@@ -51,7 +51,7 @@ impl Sheet {
         points: &mut Points,
         is_held: bool,
         is_even: bool,
-        pivots: &mut Vec<Pivot<L>>,
+        pivots: &mut Vec<Pivot>,
     ) {
         let Grid { start, columns, rows, .. } = self.grid;
         let bending = self.bending.as_ref().map(|[along, down]| if is_even { &down[..] } else { &along[..] });
@@ -61,14 +61,14 @@ impl Sheet {
         if is_even {
             let (stride, span) = (self.grid.stride(), is_held.then_some(self.weave[1]));
             let (mut moving, masses) = points.moving();
-            self.solve(&mut moving, masses, (start, stride, rows, stride), (span, bending), pivots);
+            self.solve::<L>(&mut moving, masses, (start, stride, rows, stride), (span, bending), pivots);
         } else {
             let (stride, span) = (rows.next_multiple_of(LANES), is_held.then_some(self.weave[0]));
             let mut turned = std::mem::take(&mut self.turned);
             turned.read::<L>(&self.grid, points, stride);
             let Turned { start, offset, masses } = &mut turned;
             let mut moving = Moving { start, offset };
-            self.solve(&mut moving, masses, (0, stride, columns, stride), (span, bending), pivots);
+            self.solve::<L>(&mut moving, masses, (0, stride, columns, stride), (span, bending), pivots);
             turned.write::<L>(&self.grid, points, stride);
             self.turned = turned;
         }
@@ -81,11 +81,11 @@ impl Sheet {
         masses: &[f32],
         (start, stride, knots, count): (usize, usize, usize, usize),
         (spans, bending): (Option<Span>, Option<&[f32]>),
-        pivots: &mut Vec<Pivot<L>>,
+        pivots: &mut Vec<Pivot>,
     ) {
         if let Some(spans) = spans {
             let regularisation = REGULARISATION * self.mean_inverse_mass;
-            Threads { start, stride, knots, count, spans, regularisation }.solve(moving, masses, pivots);
+            Threads { start, stride, knots, count, spans, regularisation }.solve::<L>(moving, masses, pivots);
         }
         if let Some(compliances) = bending {
             Lines { start, stride, knots, count, compliances }.straighten::<L>(moving, masses);

@@ -10,12 +10,12 @@ use super::hinge;
 use super::hot::Contacts;
 use super::pair::{Parting, part_pair};
 use super::piece::{Layout, Piece};
+use super::point_slices::PointSlices;
 use super::points::{Points, SmallStep};
 use super::sheet::Sheet;
 use super::solid::Solid;
 use super::stick::Span;
 use super::strand::Sheeting;
-use super::thread::Pivot;
 use super::touch::{self, Push, Skin};
 use crate::body::Body;
 use crate::simd::{Instructions, Kernel, Lanes, run};
@@ -176,8 +176,7 @@ impl Kernel for Relax<'_> {
 
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn run<L: Lanes>(self) {
-        let SoftSolver { points, pieces, done, .. } = self.0;
-        let mut pivots: Vec<Pivot<L>> = Vec::new();
+        let SoftSolver { points, pieces, pivots, done, .. } = self.0;
         let is_even = done.is_multiple_of(2);
         for piece in pieces {
             // They go by the length that a rope was laid out with.
@@ -188,7 +187,7 @@ impl Kernel for Relax<'_> {
             piece.elastic.sweep::<L>(points);
             match &mut piece.layout {
                 Layout::Sheet(sheet) => {
-                    sheet.pull_threads(points, is_held, is_even, &mut pivots);
+                    sheet.pull_threads::<L>(points, is_held, is_even, pivots);
                     let whole = sheet.grid.whole();
                     let pass = (&sheet.weave, is_even || !is_held);
                     let (mut moving, masses) = points.moving();
@@ -299,10 +298,9 @@ impl Kernel for PullRopes<'_> {
 
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn run<L: Lanes>(self) {
-        let SoftSolver { points, pieces, bundles, .. } = self.0;
-        let mut pivots: Vec<Pivot<L>> = Vec::new();
+        let SoftSolver { points, pieces, bundles, pivots, .. } = self.0;
         for bundle in bundles {
-            bundle.solve(points, &mut pivots);
+            bundle.solve::<L>(points, pivots);
         }
         for piece in pieces {
             if let Layout::Net(batches) = &piece.layout {
@@ -350,17 +348,18 @@ impl Kernel for SweepWindows<'_, '_> {
                 }
                 let (mut moving, masses) = points.moving();
                 grid.sweep::<L>(&mut moving, masses, window, (&limits, is_even));
+                let mut points = PointSlices::of(points);
                 for &([a, b], distance) in pairs {
                     let parting = Parting { distance, most: 0.0, friction: 0.0, turn: Vec3::ZERO };
-                    part_pair(points, [a as usize, b as usize], parting);
+                    part_pair(&mut points, [a as usize, b as usize], parting);
                 }
                 for &number in brushes {
-                    strands.brushes[number as usize].part(points, 0.0, couples);
+                    strands.brushes[number as usize].part(&mut points, 0.0, couples);
                 }
                 for &number in listed {
                     let touch = &mut touches[number as usize];
                     let solid = &mut self.solids[touch.solid as usize];
-                    touch.solve_again::<L>(points, solid, push);
+                    touch.solve_again::<L>(&mut points, solid, push);
                 }
             }
         }
@@ -395,9 +394,10 @@ impl Kernel for PushOut<'_, '_> {
     fn run<L: Lanes>(self) {
         let SoftSolver { points, pieces, touches, .. } = self.solver;
         let push = self.push;
+        let mut points = PointSlices::of(points);
         for touch in touches {
             let solid = &mut self.solids[touch.solid as usize];
-            if touch.solve::<L>(points, solid, push) {
+            if touch.solve::<L>(&mut points, solid, push) {
                 pieces[touch.piece as usize].rest.leans |= solid.inverse_mass == 0.0;
                 pieces[touch.piece as usize].rest.is_pushed |= solid.inverse_mass > 0.0;
             }

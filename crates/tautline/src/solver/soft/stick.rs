@@ -1,7 +1,7 @@
 //! Eight sticks at a time.
 
-use super::points::{Moving, MovingEights, eights, first};
-use crate::simd::{LANES, Lanes, Row, Vec3x8, read};
+use super::points::{Knots, Moving, first};
+use crate::simd::{LANES, Lanes, Row, Vec3x8};
 
 /// What lengths a stick may have, and how it gives.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,6 +25,14 @@ impl<L: Lanes> Spans<L> {
     #[inline(always)]
     pub(super) fn splat(span: Span) -> Self {
         Self { low: L::splat(span.low), high: L::splat(span.high), compliance: L::splat(span.compliance) }
+    }
+
+    /// Those of the first `count`; the others may have any length.
+    #[inline(always)]
+    fn of_first(self, count: usize) -> Self {
+        let is_in = first::<L>(count);
+        let [low, high] = [is_in.and(self.low), is_in.select(self.high, L::splat(f32::INFINITY))];
+        Self { low, high, ..self }
     }
 }
 
@@ -79,49 +87,34 @@ pub(super) fn pull<L: Lanes>(
     direction * free.greater(L::splat(0.0)).and(share)
 }
 
-/// Relaxes `count` sticks: number k is from place `a + k` to `b + k`, and no place is in two of them.
+/// Relaxes `count` sticks: number k is from place `a + k` to `b + k`, and no place is in two of them. What lies beyond is
+/// read and written too, but not changed.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(super) fn relax_run<L: Lanes>(
-    moving: &mut Moving<'_>,
-    masses: &[f32],
+    knots: &mut Knots<'_>,
     (a, b, count): (usize, usize, usize),
     spans: Spans<L>,
 ) {
-    let full = count - count % LANES;
-    let (masses_a, masses_b) = (eights(&masses[a..a + full]), eights(&masses[b..b + full]));
-    let [mut from, mut to] = moving.two_runs(a, b, full);
-    for (eight, (wa, wb)) in masses_a.iter().zip(masses_b).enumerate() {
-        let ([start_a, offset_a], [start_b, offset_b]) = (from.read(eight), to.read(eight));
-        let (before, masses) = (start_b - start_a, [L::read(wa), L::read(wb)]);
-        let pull = pull(before + (offset_b - offset_a), before, masses, spans);
-        from.write(eight, offset_a + pull * masses[0]);
-        to.write(eight, offset_b - pull * masses[1]);
-    }
-    if full < count {
-        let mask = first::<L>(count - full);
-        let (a, b) = (a + full, b + full);
-        relax([a, b], moving, [mask.and(read(masses, a)), mask.and(read(masses, b))], spans);
+    let last = spans.of_first(count % LANES);
+    for k in (0..count).step_by(LANES) {
+        let spans = if k + LANES <= count { spans } else { last };
+        relax(knots, [a + k, b + k], spans);
     }
 }
 
-/// Relaxes the sticks between the eights of numbers `a` and `b`: those that are set in `mask`, if there is one.
-#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-pub(super) fn relax_eights<L: Lanes>(
-    moving: &mut MovingEights<'_>,
-    masses: &[[f32; LANES]],
-    [a, b]: [usize; 2],
-    mask: Option<L>,
-    spans: Spans<L>,
-) {
-    let ([start_a, offset_a], [start_b, offset_b]) = (moving.read(a), moving.read(b));
-    let mut masses = [L::read(&masses[a]), L::read(&masses[b])];
-    if let Some(mask) = mask {
-        masses = [mask.and(masses[0]), mask.and(masses[1])];
+#[inline(always)]
+fn relax<L: Lanes>(knots: &mut Knots<'_>, [a, b]: [usize; 2], spans: Spans<L>) {
+    // Told here, it need not be told at each reading.
+    if !(knots.has_eight_at(a) && knots.has_eight_at(b)) {
+        return;
     }
+    let ([start_a, offset_a], [start_b, offset_b]) = (knots.read(a), knots.read(b));
+    let masses = [knots.inverse_masses(a), knots.inverse_masses(b)];
     let before = start_b - start_a;
     let pull = pull(before + (offset_b - offset_a), before, masses, spans);
-    moving.write(a, offset_a + pull * masses[0]);
-    moving.write(b, offset_b - pull * masses[1]);
+    // Where the last sticks of a run of few end, the first ones may begin: what is theirs is written last.
+    knots.write(b, offset_b - pull * masses[1]);
+    knots.write(a, offset_a + pull * masses[0]);
 }
 
 /// Relaxes the eight sticks from the places `a` on to those from `b` on.
@@ -129,19 +122,10 @@ pub(super) fn relax_eights<L: Lanes>(
 pub(super) fn relax_spans<L: Lanes>(
     moving: &mut Moving<'_>,
     masses: &[f32],
-    [a, b]: [usize; 2],
+    ends: [usize; 2],
     spans: Spans<L>,
 ) {
-    relax([a, b], moving, [read(masses, a), read(masses, b)], spans);
-}
-
-#[inline(always)]
-fn relax<L: Lanes>([a, b]: [usize; 2], moving: &mut Moving<'_>, masses: [L; 2], spans: Spans<L>) {
-    let before = Vec3x8::read(moving.start, b) - Vec3x8::read(moving.start, a);
-    let apart = Vec3x8::read(moving.offset, b) - Vec3x8::read(moving.offset, a);
-    let pull = pull(before + apart, before, masses, spans);
-    moving.shift(a, pull * masses[0]);
-    moving.shift(b, -(pull * masses[1]));
+    relax(&mut Knots::of(moving, masses), ends, spans);
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@
 
 use glam::{DVec3, Vec3};
 
+use super::point_slices::PointSlices;
 use super::points::Points;
 use super::spin::Couples;
 use super::tile::{Bounds, Tile};
@@ -172,12 +173,13 @@ impl Strands {
         couples: &mut Couples,
         mut leans: impl FnMut(u32),
     ) {
+        let mut points = PointSlices::of(points);
         for brush in &self.brushes {
-            if brush.part(points, recovery, couples) && brush.leaning != u32::MAX {
+            if brush.part(&mut points, recovery, couples) && brush.leaning != u32::MAX {
                 leans(brush.leaning);
             }
         }
-        self.nears.iter().for_each(|near| near.part(points, recovery, couples));
+        self.nears.iter().for_each(|near| near.part(&mut points, recovery, couples));
     }
 }
 
@@ -234,7 +236,7 @@ impl Brush {
     /// Of the particle and the nearest place of the segment, as they are: the gap that is missing along the line between
     /// them, and friction. Tells whether they touched.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-    pub(super) fn part(&self, points: &mut Points, recovery: f32, couples: &mut Couples) -> bool {
+    pub(super) fn part(&self, points: &mut PointSlices<'_>, recovery: f32, couples: &mut Couples) -> bool {
         let (place, [start, end]) = (self.place as usize, [self.ends[0] as usize, self.ends[1] as usize]);
         let (from, to) = (points.at(start), points.at(end));
         let (at, along) = (points.at(place), to - from);
@@ -266,7 +268,7 @@ impl Brush {
 impl Near {
     /// As [`Brush::part`], of the nearest places of two segments.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-    fn part(&self, points: &mut Points, recovery: f32, couples: &mut Couples) {
+    fn part(&self, points: &mut PointSlices<'_>, recovery: f32, couples: &mut Couples) {
         let [a, b] = [self.a, self.b].map(|ends| ends.map(|place| place as usize));
         let (ends_a, ends_b) = (a.map(|place| points.at(place)), b.map(|place| points.at(place)));
         let [share_a, share_b] = nearest_shares(ends_a, ends_b);

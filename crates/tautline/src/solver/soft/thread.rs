@@ -9,7 +9,7 @@
 
 use super::points::{Moving, MovingEights, eights};
 use super::stick::SpanAt;
-use crate::simd::{LANES, Lanes, Vec3x8};
+use crate::simd::{LANES, Lanes, Row, Vec3x8};
 
 /// ε over the inverse mass of a particle.
 pub(super) const REGULARISATION: f32 = 0.01;
@@ -30,25 +30,25 @@ pub(super) struct Threads<S> {
 }
 
 /// What is remembered of eight sticks side by side on the way down: λ_j = remainder + ratio λ_{j+1}.
-#[derive(Clone, Copy)]
-pub(super) struct Pivot<L> {
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pivot {
     /// Along what its ends are moved.
-    direction: Vec3x8<L>,
-    remainder: L,
-    ratio: L,
+    direction: [Row; 3],
+    remainder: Row,
+    ratio: Row,
 }
 
 impl<S> Threads<S> {
     /// Solves all threads. `pivots` is memory.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-    pub(super) fn solve<L: Lanes>(&self, moving: &mut Moving<'_>, masses: &[f32], pivots: &mut Vec<Pivot<L>>)
+    pub(super) fn solve<L: Lanes>(&self, moving: &mut Moving<'_>, masses: &[f32], pivots: &mut Vec<Pivot>)
     where
         S: SpanAt<L>,
     {
         let (mut knots, masses) = (moving.eights(), eights(masses));
         for first in self.start / LANES..(self.start + self.count) / LANES {
             self.eliminate(&knots, masses, first, pivots);
-            self.substitute(&mut knots, masses, first, pivots);
+            self.substitute::<L>(&mut knots, masses, first, pivots);
         }
     }
 
@@ -58,7 +58,7 @@ impl<S> Threads<S> {
         knots: &MovingEights<'_>,
         masses: &[[f32; LANES]],
         first: usize,
-        pivots: &mut Vec<Pivot<L>>,
+        pivots: &mut Vec<Pivot>,
     ) where
         S: SpanAt<L>,
     {
@@ -87,12 +87,15 @@ impl<S> Threads<S> {
             let (right, left) = (mass * direction.dot(next_push), mass * push.dot(next));
             let ratio = right * inverse;
             if let Some(last) = pivots.last_mut() {
-                last.ratio = ratio;
+                ratio.store(&mut last.ratio);
             }
             let diagonal = free * next.dot(next_push) + L::splat(self.regularisation) + spans.compliance;
             inverse = one / (diagonal - left * ratio);
             remainder = (left * remainder - excess) * inverse;
-            pivots.push(Pivot { direction: next_push, remainder, ratio: zero });
+            let mut pivot = Pivot { direction: [Row::ZERO; 3], remainder: Row::ZERO, ratio: Row::ZERO };
+            next_push.store(&mut pivot.direction);
+            remainder.store(&mut pivot.remainder);
+            pivots.push(pivot);
             (above, mass, direction, push) = (below, next_mass, next, next_push);
         }
     }
@@ -103,14 +106,14 @@ impl<S> Threads<S> {
         knots: &mut MovingEights<'_>,
         masses: &[[f32; LANES]],
         first: usize,
-        pivots: &mut Vec<Pivot<L>>,
+        pivots: &mut Vec<Pivot>,
     ) {
         let (mut multiplier, mut from_below) = (L::splat(0.0), Vec3x8::<L>::zero());
         for knot in (0..self.knots).rev() {
             let from_above = match pivots.pop() {
                 Some(pivot) => {
-                    multiplier = pivot.remainder + pivot.ratio * multiplier;
-                    pivot.direction * multiplier
+                    multiplier = L::load(&pivot.remainder) + L::load(&pivot.ratio) * multiplier;
+                    Vec3x8::load(&pivot.direction) * multiplier
                 }
                 None => Vec3x8::zero(),
             };

@@ -6,6 +6,7 @@
 
 use glam::{Mat3, Vec3};
 
+use super::point_slices::PointSlices;
 use super::points::Points;
 use super::probe::{Facet, Form, Probe, probe_triangles};
 use super::solid::{Matter, Solid, Stance, part_bounds};
@@ -216,7 +217,12 @@ impl Touch {
     /// this small step is taken back, by at most μ times what is corrected along the normal). Tells
     /// whether it has touched.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-    pub(super) fn solve<L: Lanes>(&mut self, points: &mut Points, solid: &mut Solid<'_>, push: Push) -> bool {
+    pub(super) fn solve<L: Lanes>(
+        &mut self,
+        points: &mut PointSlices<'_>,
+        solid: &mut Solid<'_>,
+        push: Push,
+    ) -> bool {
         self.age += 1.0;
         self.solve_again::<L>(points, solid, push)
     }
@@ -225,11 +231,14 @@ impl Touch {
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     pub(super) fn solve_again<L: Lanes>(
         &self,
-        points: &mut Points,
+        points: &mut PointSlices<'_>,
         solid: &mut Solid<'_>,
         push: Push,
     ) -> bool {
         let place = self.place as usize;
+        if !points.has_eight_at(place) {
+            return false;
+        }
         let normal = Vec3x8::<L>::load(&self.normal);
         let carried = Vec3x8::<L>::load(&self.motion);
         let mut offset = L::load(&self.offset) + normal.dot(carried) * L::splat(self.age);
@@ -238,7 +247,7 @@ impl Touch {
         }
         let at = points.eight_at::<L>(place);
         let depth = offset - at.dot(normal);
-        let free = read::<L>(&points.inverse_mass, place);
+        let free = read::<L>(points.inverse_mass, place);
         let zero = L::splat(0.0);
         let hits = depth.greater(zero).and(free.greater(zero));
         if hits.bits() == 0 {
@@ -254,7 +263,7 @@ impl Touch {
         let across = slip - normal * along;
         let length = across.length_squared().max(L::splat(1e-24)).sqrt();
         let grip = (depth * L::splat(self.friction) / length).min(L::splat(1.0));
-        points.moving().0.shift(place, normal * depth - across * hits.and(grip));
+        points.shift_eight(place, normal * depth - across * hits.and(grip));
         true
     }
 
@@ -272,7 +281,7 @@ impl Touch {
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn share<L: Lanes>(
         &self,
-        points: &mut Points,
+        points: &mut PointSlices<'_>,
         solid: &mut Solid<'_>,
         depth: L,
         slip: Vec3x8<L>,

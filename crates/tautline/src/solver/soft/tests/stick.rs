@@ -14,7 +14,8 @@ impl Kernel for Run {
     fn run<L: Lanes>(self) -> Coordinates {
         let Self(run, span, seed) = self;
         moved(cloud(PLACES, seed), |moving| {
-            relax_run(moving, &weights(PLACES), run, Spans::<L>::splat(span));
+            let masses = weights(PLACES);
+            relax_run(&mut Knots::of(moving, &masses), run, Spans::<L>::splat(span));
         })
     }
 }
