@@ -294,7 +294,7 @@ pub(super) struct Knots<'a> {
 impl<'a> Knots<'a> {
     #[inline(always)]
     pub(super) fn of<'b: 'a>(moving: &'a mut Moving<'b>, masses: &'a [f32]) -> Self {
-        let [x, y, z] = &*moving.start;
+        let [x, y, z] = moving.start;
         let [u, v, w] = &mut *moving.offset;
         let count = [x, y, z, u, v, w].iter().map(|numbers| numbers.len()).fold(masses.len(), usize::min);
         Self {
