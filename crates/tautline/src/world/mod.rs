@@ -122,6 +122,8 @@ impl World {
         settings.validate()?;
         if settings.cloth == ClothSolver::Paper {
             self.check_for_paper()?;
+            // No other solver searches their trees, or fits them.
+            self.bodies.iter_mut().for_each(|body| body.refit_tree(&self.particles.position));
         }
         self.settings = settings;
         self.rigid.invalidate();

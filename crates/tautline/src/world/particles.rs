@@ -7,6 +7,7 @@ use glam::Vec3;
 use super::World;
 use super::bodies::check_particle_mass;
 use crate::error::{Error, all_coordinates, coordinates};
+use crate::settings::ClothSolver;
 use crate::slots::BodyHandle;
 
 impl World {
@@ -65,7 +66,7 @@ impl World {
         self.wake_around_fixed(index);
         self.index.take();
         self.particles.position[i] = position;
-        self.bodies[index].refit_tree(&self.particles.position);
+        self.fit_tree(index);
         self.wake_around_fixed(index);
         Ok(())
     }
@@ -81,9 +82,16 @@ impl World {
         self.wake_around_fixed(index);
         self.index.take();
         self.particles.position[range].copy_from_slice(positions);
-        self.bodies[index].refit_tree(&self.particles.position);
+        self.fit_tree(index);
         self.wake_around_fixed(index);
         Ok(())
+    }
+
+    /// Has the sphere tree of a cloth or rope follow its particles, where it is searched.
+    fn fit_tree(&mut self, index: usize) {
+        if self.settings.cloth == ClothSolver::Paper {
+            self.bodies[index].refit_tree(&self.particles.position);
+        }
     }
 
     /// Sets the velocity of a particle, in m/s. Nothing happens to a pinned one.

@@ -1,6 +1,6 @@
 //! Adding and removing bodies, and the handles that survive it.
 
-use tautline::{Error, HalfSpace, Settings, TrussBody, Vec3, World};
+use tautline::{Cloth, Error, HalfSpace, Settings, TrussBody, Vec3, World};
 
 use crate::{cube, icosahedron, mixed_scene, run};
 
@@ -81,4 +81,20 @@ fn a_force_on_a_body_is_spread_by_mass() {
     for (x, old) in world.positions().iter().zip(&before) {
         assert!(x.distance(*old + Vec3::X * 0.25) < 1e-4, "{x} from {old}");
     }
+}
+
+/// Trees of cloth are the paper's solver's alone: it finds cloth where others have left it.
+#[test]
+fn the_papers_solver_finds_cloth_that_was_moved_before() {
+    let mut world = World::new(Settings::default()).unwrap();
+    let cloth = world.add(Cloth::grid(9, 9, 2.0, 2.0)).unwrap();
+    (0..81).for_each(|particle| world.pin(cloth, particle).unwrap());
+    let raised: Vec<Vec3> =
+        world.body(cloth).unwrap().positions().iter().map(|&at| at + Vec3::Y * 5.0).collect();
+    world.set_particle_positions(cloth, &raised).unwrap();
+    world.set_settings(Settings::paper()).unwrap();
+    let ball = world.add(TrussBody::new(&icosahedron(0.3)).position(Vec3::Y * 6.0)).unwrap();
+    run(&mut world, 120);
+    let lowest = world.body(ball).unwrap().positions().iter().map(|at| at.y).fold(f32::MAX, f32::min);
+    assert!(lowest > 4.9, "it lies at {lowest} m");
 }
