@@ -11,8 +11,11 @@ use crate::{setup, web};
 /// Begins the builds, one after another, unseen. The step that a build is for asks for it again: it waits for what has not
 /// ended, has nothing to do if it has, and tells what is wrong.
 pub(crate) fn begin(project: &Project) -> Result<Outcome, String> {
-    let builds = web::compilations(project).into_iter().chain(setup::miri_compilations(project));
-    let builds: Vec<Command> = builds.collect();
+    let mut builds = Vec::new();
+    if setup::node_is_there() {
+        builds.extend(web::compilations(project));
+    }
+    builds.extend(setup::miri_compilations(project));
     let note = format!("{} commands", builds.len());
     thread::spawn(move || builds.into_iter().for_each(run_unseen));
     Ok(Outcome::Noted(note))

@@ -43,7 +43,8 @@ pub(crate) fn gltf_validator(project: &Project) -> Result<Outcome, String> {
     Ok(Outcome::LeftOut("GLB files were not checked by the Khronos validator, which needs Node".into()))
 }
 
-fn node_is_there() -> bool {
+/// Node and its packages' installer.
+pub(crate) fn node_is_there() -> bool {
     exists("node") && exists("npm")
 }
 

@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::command::{cargo, exists, output, program, run};
+use crate::command::{cargo, output, program, run};
 use crate::project::Project;
+use crate::setup::node_is_there;
 use crate::steps::Outcome;
 
 /// The npm package.
@@ -42,7 +43,7 @@ fn tool_folder(project: &Project) -> PathBuf {
 
 /// The package builds, is small, has what it should, and does what its tests say, the bits of the native engine included.
 pub(crate) fn web(project: &Project) -> Result<Outcome, String> {
-    if !(exists("node") && exists("npm")) {
+    if !node_is_there() {
         return Ok(Outcome::LeftOut("the npm package, which needs Node".into()));
     }
     build(project)?;
