@@ -1,6 +1,6 @@
 // The page that plays a recording, as one file: `tautline run … --out x.html` puts the recording into it.
 import { createHash } from "node:crypto";
-import { writeFileSync } from "node:fs";
+import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { type Plugin, defineConfig } from "vite";
 
@@ -28,7 +28,8 @@ function inline(): Plugin {
         .replace("</title>", () => `</title>\n    <style>${style}</style>\n    <script type="module">${code}</script>`)
         .replace(CHARSET, `${CHARSET}\n    <meta http-equiv="Content-Security-Policy" content="${allowed}" />`);
       for (const name of Object.keys(bundle)) delete bundle[name];
-      writeFileSync(TEMPLATE, html);
+      // One that is the same keeps its time: nothing that includes it is compiled again.
+      if (!existsSync(TEMPLATE) || readFileSync(TEMPLATE, "utf8") !== html) writeFileSync(TEMPLATE, html);
     },
   };
 }

@@ -1,5 +1,6 @@
 //! Project tasks. `cargo xtask test` runs everything that must pass.
 
+mod ahead;
 mod command;
 mod files;
 mod hashes;

@@ -2,7 +2,7 @@
 
 use crate::command::{exists, run};
 use crate::project::Project;
-use crate::setup::install_on_debian;
+use crate::setup::{install_on_debian, node_is_there};
 use crate::steps::Outcome;
 use crate::web::{install_packages, npm};
 
@@ -26,7 +26,7 @@ pub(crate) fn build(project: &Project) -> Result<(), String> {
 /// The page builds, its types hold, and recordings are put into the page that is made of it. The npm package has been
 /// built by the step before.
 pub(crate) fn page(project: &Project) -> Result<Outcome, String> {
-    if !(exists("node") && exists("npm")) {
+    if !node_is_there() {
         return Ok(Outcome::LeftOut("the playground, which needs Node".into()));
     }
     let kept = project.root.join(REPLAY);

@@ -1,5 +1,7 @@
 //! What the checks need besides Rust: installed on Debian as root; elsewhere the line that installs it is printed.
 
+use std::process::Command;
+
 use crate::command::{exists, program, run};
 use crate::files::text_files;
 use crate::project::Project;
@@ -10,6 +12,10 @@ use crate::tidy::unsafe_lines;
 const VALIDATOR: &str = "tests/gltf-validator";
 /// On Debian.
 const NODE: &[&str] = &["nodejs", "npm"];
+
+/// Where Miri looks: only at tests of the folders that have unsafe code, since it is slow.
+const ENGINE: &str = "tautline";
+const UNSAFE_TESTS: &[&str] = &["simd::", "parallel::team::"];
 
 /// rustfmt, clippy, Node and the npm packages that tests use.
 pub(crate) fn setup(project: &Project) -> Result<Outcome, String> {
@@ -37,7 +43,8 @@ pub(crate) fn gltf_validator(project: &Project) -> Result<Outcome, String> {
     Ok(Outcome::LeftOut("GLB files were not checked by the Khronos validator, which needs Node".into()))
 }
 
-fn node_is_there() -> bool {
+/// Node and its packages' installer.
+pub(crate) fn node_is_there() -> bool {
     exists("node") && exists("npm")
 }
 
@@ -78,8 +85,7 @@ pub(crate) fn miri(project: &Project) -> Result<Outcome, String> {
     if files.iter().all(|file| unsafe_lines(file).is_empty()) {
         return Ok(Outcome::Noted("there is no unsafe code, so nothing for Miri to judge".into()));
     }
-    // Only the tests of the folders that have unsafe code, since Miri is slow.
-    miri_test(project, "tautline", &["simd::", "parallel::team::"])
+    miri_test(project, ENGINE, UNSAFE_TESTS)
 }
 
 /// Miri runs the unit tests of the mesh readers, over seeds that are changed and cut off.
@@ -87,15 +93,29 @@ pub(crate) fn miri_of_readers(project: &Project) -> Result<Outcome, String> {
     miri_test(project, "tautline-scene", &["mesh_file::"])
 }
 
+/// What compiles the engine for [`miri`].
+pub(crate) fn miri_compilations(project: &Project) -> [Command; 2] {
+    [install_miri(project), miri_command(project, ENGINE, &["--no-run"])]
+}
+
 /// Runs the unit tests of a package that have any of these in their names under Miri.
 fn miri_test(project: &Project, package: &str, tests: &[&str]) -> Result<Outcome, String> {
+    run(&mut install_miri(project))?;
+    run(&mut miri_command(project, package, &[&["--"], tests].concat()))?;
+    Ok(Outcome::Passed)
+}
+
+fn install_miri(project: &Project) -> Command {
     let toolchain =
         ["toolchain", "install", "nightly", "--profile", "minimal", "--component", "miri,rust-src"];
-    run(&mut program(project, "rustup", &toolchain))?;
+    program(project, "rustup", &toolchain)
+}
+
+fn miri_command(project: &Project, package: &str, more: &[&str]) -> Command {
     // Through rustup: the Cargo that runs this program is of the stable toolchain.
-    let test = ["run", "nightly", "cargo", "miri", "test", "--locked", "-p", package, "--lib", "--"];
-    let test: Vec<&str> = test.iter().chain(tests).copied().collect();
+    let test = ["run", "nightly", "cargo", "miri", "test", "--locked", "-p", package, "--lib"];
+    let mut command = program(project, "rustup", &[&test, more].concat());
     // The unsafe code is about these instructions.
-    run(program(project, "rustup", &test).env("RUSTFLAGS", "-C target-feature=+avx2"))?;
-    Ok(Outcome::Passed)
+    command.env("RUSTFLAGS", "-C target-feature=+avx2");
+    command
 }

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use crate::command::{cargo, run as run_command};
 use crate::project::Project;
-use crate::{hashes, meshes, page, python, readme, setup, tidy, web};
+use crate::{ahead, hashes, meshes, page, python, readme, setup, tidy, web};
 
 /// One thing that must pass.
 pub(crate) struct Step {
@@ -28,6 +28,7 @@ pub(crate) const STEPS: &[Step] = &[
     Step { name: "setup", about: "what the other steps need is there, or is installed", check: setup::setup },
     Step { name: "format", about: "rustfmt changes nothing", check: format },
     Step { name: "tidy", about: "architecture, file sizes, paths, links", check: tidy::tidy },
+    Step { name: "ahead", about: "slow builds of later steps are begun", check: ahead::begin },
     Step { name: "clippy", about: "no warnings, in any target", check: clippy },
     Step { name: "docs", about: "no warnings", check: docs },
     Step { name: "tests", about: "all tests of the workspace", check: tests },

@@ -1,9 +1,11 @@
 //! The engine in WebAssembly and the npm package around it.
 
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
-use crate::command::{cargo, exists, output, program, run};
+use crate::command::{cargo, output, program, run};
 use crate::project::Project;
+use crate::setup::node_is_there;
 use crate::steps::Outcome;
 
 /// The npm package.
@@ -15,9 +17,9 @@ const MOST_BYTES: usize = 875_000;
 /// Builds the package: the engine, its glue, its types.
 pub(crate) fn build(project: &Project) -> Result<(), String> {
     let package = project.root.join(PACKAGE);
-    run(&mut program(project, "rustup", &["target", "add", TARGET]))?;
-    let engine = ["build", "--locked", "--package", "tautline-wasm", "--target", TARGET, "--profile", "web"];
-    run(&mut cargo(project, &engine))?;
+    for mut command in compilations(project) {
+        run(&mut command)?;
+    }
     install_packages(project, &package)?;
     write_glue(project)?;
     for script in ["document", "build"] {
@@ -26,9 +28,22 @@ pub(crate) fn build(project: &Project) -> Result<(), String> {
     Ok(())
 }
 
+/// What compiles the engine, and the tool that writes its glue, which has a workspace of its own.
+pub(crate) fn compilations(project: &Project) -> [Command; 3] {
+    let engine = ["build", "--locked", "--package", "tautline-wasm", "--target", TARGET, "--profile", "web"];
+    let mut tool =
+        cargo(project, &["build", "--locked", "--manifest-path", "bindings/wasm/bindgen/Cargo.toml"]);
+    tool.env("CARGO_TARGET_DIR", tool_folder(project));
+    [program(project, "rustup", &["target", "add", TARGET]), cargo(project, &engine), tool]
+}
+
+fn tool_folder(project: &Project) -> PathBuf {
+    project.target.join("bindgen")
+}
+
 /// The package builds, is small, has what it should, and does what its tests say, the bits of the native engine included.
 pub(crate) fn web(project: &Project) -> Result<Outcome, String> {
-    if !(exists("node") && exists("npm")) {
+    if !node_is_there() {
         return Ok(Outcome::LeftOut("the npm package, which needs Node".into()));
     }
     build(project)?;
@@ -45,7 +60,7 @@ pub(crate) fn web(project: &Project) -> Result<Outcome, String> {
     }
 }
 
-pub(crate) fn npm(project: &Project, arguments: &[&str]) -> std::process::Command {
+pub(crate) fn npm(project: &Project, arguments: &[&str]) -> Command {
     program(project, "npm", arguments)
 }
 
@@ -59,13 +74,9 @@ pub(crate) fn install_packages(project: &Project, package: &Path) -> Result<(), 
     run(npm(project, &["ci", "--no-audit", "--no-fund"]).current_dir(package))
 }
 
-/// Writes what JavaScript calls the engine by. The tool has a workspace of its own.
+/// Writes what JavaScript calls the engine by.
 fn write_glue(project: &Project) -> Result<(), String> {
-    let folder = project.target.join("bindgen");
-    let manifest = "bindings/wasm/bindgen/Cargo.toml";
-    let mut tool = cargo(project, &["build", "--locked", "--manifest-path", manifest]);
-    run(tool.env("CARGO_TARGET_DIR", &folder))?;
-    let tool = folder.join("debug").join(format!("bindgen{}", std::env::consts::EXE_SUFFIX));
+    let tool = tool_folder(project).join("debug").join(format!("bindgen{}", std::env::consts::EXE_SUFFIX));
     let module = project.target.join(TARGET).join("web/tautline_wasm.wasm");
     let engine = PathBuf::from(PACKAGE).join("src/engine");
     run(program(project, tool, &[]).arg(module).arg(engine))
