@@ -53,7 +53,7 @@ use piece::{Layout, Piece, span_of};
 use points::{Points, set};
 use rest::Rest;
 use ropes::{Bundle, Rope};
-use small_step::Timing;
+use small_step::{Timing, look_every};
 use solid::Solid;
 use spin::Couples;
 use stick::Span;
@@ -90,6 +90,8 @@ pub(crate) struct SoftSolver {
     done: u32,
     /// Small steps that there are in it.
     planned: u32,
+    /// In how many small steps what may touch is looked for once.
+    look_every: u32,
     /// Small steps in a second, about.
     rate: f32,
     /// Whether bodies have come, gone or changed since everything was laid out.
@@ -130,6 +132,7 @@ impl SoftSolver {
         }
         self.ties.begin_step();
         self.planned = self.small_steps(h) as u32 * settings.substeps;
+        self.look_every = look_every(self.small_steps(h) as usize);
         let small = h / self.small_steps(h);
         self.led.clear();
         for kick in &mut self.points.kick {

@@ -20,8 +20,8 @@ use super::touch::{self, Push, Skin};
 use crate::body::Body;
 use crate::simd::{Instructions, Kernel, Lanes, run};
 
-/// Which cloth and ropes may touch which is looked at once in so many small steps.
-const LOOK_EVERY: u32 = 4;
+/// Which cloth and ropes may touch which is looked at once in so many small steps, or in a few less.
+const LOOK_EVERY: usize = 5;
 /// By how much faster than now things may get until the next look.
 const HASTE: f32 = 1.5;
 
@@ -43,6 +43,11 @@ pub(super) struct Timing {
     /// The speed at which what was too deep before is moved out, in m/s.
     pub(super) recovery: f32,
     pub(super) instructions: Instructions,
+}
+
+/// In how many small steps what may touch is looked at once, where a substep has `count`: equal parts of it.
+pub(super) fn look_every(count: usize) -> u32 {
+    count.div_ceil(count.div_ceil(LOOK_EVERY)) as u32
 }
 
 impl Timing {
@@ -214,7 +219,7 @@ impl Kernel for Part<'_> {
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn run<L: Lanes>(self) {
         let Self(solver, recovery) = self;
-        let is_time = solver.done.is_multiple_of(LOOK_EVERY);
+        let is_time = solver.done.is_multiple_of(solver.look_every);
         if is_time {
             solver.couples.clear();
         }
@@ -266,7 +271,7 @@ impl SoftSolver {
             }
         }
         // What has moved since the step began has in its first look moved for one small step only.
-        let ahead = if self.done == 0 { LOOK_EVERY as f32 } else { 1.0 };
+        let ahead = if self.done == 0 { self.look_every as f32 } else { 1.0 };
         self.meetings.look::<L>(&self.points, ahead, &mut self.couples);
     }
 
@@ -274,7 +279,7 @@ impl SoftSolver {
     fn look_at_ropes<L: Lanes>(&mut self) {
         let fastest = self.pieces.iter().map(|piece| piece.fastest).fold(0.0, f32::max);
         let thinnest = self.pieces.iter().map(|piece| piece.thickness).fold(f32::INFINITY, f32::min);
-        let margin = 2.0 * HASTE * LOOK_EVERY as f32 * fastest + 0.5 * thinnest;
+        let margin = 2.0 * HASTE * self.look_every as f32 * fastest + 0.5 * thinnest;
         for piece in &mut self.pieces {
             piece.fit_boxes::<L>(&self.points);
         }
@@ -322,7 +327,8 @@ impl Kernel for SweepWindows<'_, '_> {
 
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn run<L: Lanes>(self) {
-        let SoftSolver { points, pieces, touches, strands, meetings, couples, done, .. } = self.solver;
+        let SoftSolver { points, pieces, touches, strands, meetings, couples, done, look_every, .. } =
+            self.solver;
         let push = self.push;
         for piece in pieces.iter_mut() {
             let is_even = done.is_multiple_of(2) || !piece.is_held();
@@ -330,7 +336,8 @@ impl Kernel for SweepWindows<'_, '_> {
             let Sheet { grid, weave, windows, .. } = &mut **sheet;
             let is_fine = grid.columns.max(grid.rows) >= FINE;
             let tolerance = if is_fine { HOT_AND_FINE } else { HOT };
-            if done.is_multiple_of(HOT_EVERY) {
+            // Whenever what may touch has been looked for, of which windows keep the numbers.
+            if done.is_multiple_of(*look_every) {
                 windows.find::<L>(grid, weave, points, tolerance);
                 windows.list_members(grid);
                 windows.list_touches(grid, touches);
@@ -369,8 +376,6 @@ impl Kernel for SweepWindows<'_, '_> {
 
 /// How often the segments of a net are swept in a small step.
 const NET_SWEEPS: u32 = 4;
-/// Hot windows are looked for once in so many small steps: whenever what may touch has been, of which they keep the numbers.
-const HOT_EVERY: u32 = LOOK_EVERY;
 /// By what share of its length an edge is longer that is hot, …
 const HOT: f32 = 0.03;
 /// … in sheets of …
