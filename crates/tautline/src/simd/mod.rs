@@ -15,7 +15,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use serde::{Deserialize, Serialize};
 
-pub(crate) use vector::{Matrix3x8, Vec3x8, column, read, write};
+pub(crate) use vector::{Matrix3x8, Vec3x8, column, read};
 
 /// How many numbers a group has.
 pub(crate) const LANES: usize = 8;

@@ -1,6 +1,6 @@
 //! Eight vectors, or eight matrices, side by side.
 
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Deref, DerefMut, Mul, Neg, Sub};
 
 use glam::Vec3;
 
@@ -45,12 +45,12 @@ impl<L: Lanes> Vec3x8<L> {
 
     /// The eight vectors from number `at` on, out of all x, all y and all z.
     #[inline(always)]
-    pub(crate) fn read(numbers: &[Vec<f32>; 3], at: usize) -> Self {
+    pub(crate) fn read(numbers: &[impl Deref<Target = [f32]>; 3], at: usize) -> Self {
         Self::new(read(&numbers[0], at), read(&numbers[1], at), read(&numbers[2], at))
     }
 
     #[inline(always)]
-    pub(crate) fn write(self, numbers: &mut [Vec<f32>; 3], at: usize) {
+    pub(crate) fn write(self, numbers: &mut [impl DerefMut<Target = [f32]>; 3], at: usize) {
         write(self.x, &mut numbers[0], at);
         write(self.y, &mut numbers[1], at);
         write(self.z, &mut numbers[2], at);
@@ -141,7 +141,7 @@ pub(crate) fn read<L: Lanes>(numbers: &[f32], at: usize) -> L {
 
 /// The reverse; nothing where there are not as many.
 #[inline(always)]
-pub(crate) fn write<L: Lanes>(lanes: L, numbers: &mut [f32], at: usize) {
+fn write<L: Lanes>(lanes: L, numbers: &mut [f32], at: usize) {
     if let Some(eight) = numbers[at..].first_chunk_mut::<LANES>() {
         lanes.write(eight);
     }

@@ -13,7 +13,6 @@
 use super::grid::Grid;
 use super::pair::{Parting, part_pair};
 use super::patch::{Cone, cone_of};
-use super::point_slices::PointSlices;
 use super::points::{Coordinates, Points, get, set};
 use super::spin::Couples;
 use super::tile::{Around, Bounds, MOST_EIGHTS, Tile, inside};
@@ -411,7 +410,7 @@ impl Meetings {
 
     /// Moves all pairs apart that are too close, with friction; what was too close before by `recovery` (m) at most.
     pub(super) fn part(&self, points: &mut Points, recovery: f32, couples: &mut Couples) {
-        let mut points = PointSlices::of(points);
+        let mut points = points.slices();
         for list in &self.lists {
             if list.is_idle() {
                 continue;

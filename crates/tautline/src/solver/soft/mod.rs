@@ -18,7 +18,6 @@ mod meet;
 mod pair;
 mod patch;
 mod piece;
-mod point_slices;
 mod points;
 mod probe;
 mod rest;

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::point_slices::PointSlices;
+use super::points::PointSlices;
 
 /// How two particles are kept apart.
 #[derive(Debug, Clone, Copy)]

@@ -1,9 +1,11 @@
 //! The particles of all awake cloth and rope, coordinate by coordinate, so that eight are moved at a time.
 
+use std::ops::{Deref, DerefMut};
+
 use glam::Vec3;
 
 use super::rest::Calming;
-use crate::simd::{LANES, Lanes, Vec3x8, read, write};
+use crate::simd::{LANES, Lanes, Vec3x8, read};
 
 /// Numbers by place: all x, all y, all z.
 pub(super) type Coordinates = [Vec<f32>; 3];
@@ -13,21 +15,27 @@ pub(super) type Coordinates = [Vec<f32>; 3];
 /// A particle is at x = x₀ + e, and has moved by d = e − r in this small step. All that moves it adds to e, which is small,
 /// so that what two particles give each other is rounded alike; x₀, which is large, is rounded once in a small step, and
 /// what that leaves is carried on as r. Were a large number rounded with every correction, momentum would drift.
+///
+/// `R` is how numbers are held that contacts only read, `W` those that they write: see [`PointSlices`].
 #[derive(Debug, Clone, Default)]
-pub(super) struct Points {
+pub(super) struct Points<R = Vec<f32>, W = Vec<f32>> {
     /// x₀, in m: where the small step began, to the nearest number.
-    pub(super) start: Coordinates,
+    pub(super) start: [R; 3],
     /// e, in m: how far the particle is from there.
-    pub(super) offset: Coordinates,
+    pub(super) offset: [W; 3],
     /// r, in m: how far it was from there when the small step began.
-    pub(super) remainder: Coordinates,
+    pub(super) remainder: [W; 3],
     /// What forces add to the displacement in a small step, in m; as long as the others only if there are any.
-    pub(super) kick: Coordinates,
+    pub(super) kick: [R; 3],
     /// 1/m, in 1/kg; 0 = held.
-    pub(super) inverse_mass: Vec<f32>,
+    pub(super) inverse_mass: R,
     /// 1 where there is a particle, 0 where there is none.
-    pub(super) presence: Vec<f32>,
+    pub(super) presence: R,
 }
+
+/// All points in slices of one length, for what pushes them here and there: one comparison tells that a particle is there, or
+/// eight.
+pub(super) type PointSlices<'a> = Points<&'a [f32], &'a mut [f32]>;
 
 /// Places that belong to nothing, apart by this much in m.
 const NOWHERE: f32 = 1e6;
@@ -57,27 +65,19 @@ impl Points {
         set(&mut self.remainder, place, -motion);
     }
 
+    /// For what pushes particles here and there.
     #[inline(always)]
-    pub(super) fn at(&self, place: usize) -> Vec3 {
-        get(&self.start, place) + get(&self.offset, place)
-    }
-
-    /// Where a particle was when this small step began, in m: what pushes it there turns it about anything by that arm.
-    #[inline(always)]
-    pub(super) fn begun_at(&self, place: usize) -> Vec3 {
-        get(&self.start, place) + get(&self.remainder, place)
-    }
-
-    /// As [`Points::begun_at`], of the eight particles from `place` on.
-    #[inline(always)]
-    pub(super) fn eight_begun_at<L: Lanes>(&self, place: usize) -> Vec3x8<L> {
-        Vec3x8::read(&self.start, place) + Vec3x8::read(&self.remainder, place)
-    }
-
-    /// Where the eight particles from `place` on are, in m.
-    #[inline(always)]
-    pub(super) fn eight_at<L: Lanes>(&self, place: usize) -> Vec3x8<L> {
-        Vec3x8::read(&self.start, place) + Vec3x8::read(&self.offset, place)
+    pub(super) fn slices(&mut self) -> PointSlices<'_> {
+        let Self { start, offset, remainder, kick, inverse_mass, presence } = self;
+        let count = inverse_mass.len();
+        PointSlices {
+            start: cut(start, count),
+            offset: cut_mut(offset, count),
+            remainder: cut_mut(remainder, count),
+            kick: cut(kick, kick[0].len()),
+            inverse_mass,
+            presence,
+        }
     }
 
     /// What kernels move, and the inverse masses of the particles.
@@ -85,19 +85,6 @@ impl Points {
     pub(super) fn moving(&mut self) -> (Moving<'_>, &[f32]) {
         let Self { start, offset, inverse_mass, .. } = self;
         (Moving { start, offset }, inverse_mass)
-    }
-
-    /// Moves a particle by `shift` (m), which becomes velocity.
-    #[inline(always)]
-    pub(super) fn shift(&mut self, place: usize, shift: Vec3) {
-        add(&mut self.offset, place, shift);
-    }
-
-    /// Moves a particle by `shift` (m) without giving it velocity.
-    #[inline(always)]
-    pub(super) fn carry(&mut self, place: usize, shift: Vec3) {
-        add(&mut self.offset, place, shift);
-        add(&mut self.remainder, place, shift);
     }
 
     /// Moves a held particle on by `motion` (m), to the bit.
@@ -127,18 +114,6 @@ impl Points {
     /// What rounding left of where a particle is when a substep ends, in m.
     pub(super) fn rest(&self, place: usize) -> Vec3 {
         get(&self.offset, place)
-    }
-
-    /// How far a particle has moved in this small step, in m.
-    #[inline(always)]
-    pub(super) fn motion(&self, place: usize) -> Vec3 {
-        get(&self.offset, place) - get(&self.remainder, place)
-    }
-
-    /// How far the eight particles from `place` on have moved in this small step, in m.
-    #[inline(always)]
-    pub(super) fn motion_of_eight<L: Lanes>(&self, place: usize) -> Vec3x8<L> {
-        Vec3x8::read(&self.offset, place) - Vec3x8::read(&self.remainder, place)
     }
 
     /// Has a particle moved by `motion` (m) in this small step, to where it is.
@@ -191,6 +166,68 @@ impl Points {
         }
         fastest.max(fastest_squared.sqrt()).largest()
     }
+}
+
+impl<R: Deref<Target = [f32]>, W: DerefMut<Target = [f32]>> Points<R, W> {
+    #[inline(always)]
+    pub(super) fn at(&self, place: usize) -> Vec3 {
+        get(&self.start, place) + get(&self.offset, place)
+    }
+
+    /// Where a particle was when this small step began, in m: what pushes it there turns it about anything by that arm.
+    #[inline(always)]
+    pub(super) fn begun_at(&self, place: usize) -> Vec3 {
+        get(&self.start, place) + get(&self.remainder, place)
+    }
+
+    /// As [`Points::begun_at`], of the eight particles from `place` on.
+    #[inline(always)]
+    pub(super) fn eight_begun_at<L: Lanes>(&self, place: usize) -> Vec3x8<L> {
+        Vec3x8::read(&self.start, place) + Vec3x8::read(&self.remainder, place)
+    }
+
+    /// Where the eight particles from `place` on are, in m.
+    #[inline(always)]
+    pub(super) fn eight_at<L: Lanes>(&self, place: usize) -> Vec3x8<L> {
+        Vec3x8::read(&self.start, place) + Vec3x8::read(&self.offset, place)
+    }
+
+    /// Moves a particle by `shift` (m), which becomes velocity.
+    #[inline(always)]
+    pub(super) fn shift(&mut self, place: usize, shift: Vec3) {
+        add(&mut self.offset, place, shift);
+    }
+
+    /// Moves a particle by `shift` (m) without giving it velocity.
+    #[inline(always)]
+    pub(super) fn carry(&mut self, place: usize, shift: Vec3) {
+        add(&mut self.offset, place, shift);
+        add(&mut self.remainder, place, shift);
+    }
+
+    /// How far a particle has moved in this small step, in m.
+    #[inline(always)]
+    pub(super) fn motion(&self, place: usize) -> Vec3 {
+        get(&self.offset, place) - get(&self.remainder, place)
+    }
+
+    /// How far the eight particles from `place` on have moved in this small step, in m.
+    #[inline(always)]
+    pub(super) fn motion_of_eight<L: Lanes>(&self, place: usize) -> Vec3x8<L> {
+        Vec3x8::read(&self.offset, place) - Vec3x8::read(&self.remainder, place)
+    }
+
+    /// Moves the eight particles from `place` on, which becomes velocity.
+    #[inline(always)]
+    pub(super) fn shift_eight<L: Lanes>(&mut self, place: usize, shift: Vec3x8<L>) {
+        (Vec3x8::read(&self.offset, place) + shift).write(&mut self.offset, place);
+    }
+
+    /// Whether there are eight places from this one on.
+    #[inline(always)]
+    pub(super) fn has_eight_at(&self, place: usize) -> bool {
+        has_eight(&self.inverse_mass, place)
+    }
 
     /// A mask of those of eight places where there is a particle.
     #[inline(always)]
@@ -241,12 +278,6 @@ pub(super) struct Moving<'a> {
 }
 
 impl Moving<'_> {
-    /// Moves the eight particles from `place` on.
-    #[inline(always)]
-    pub(super) fn shift<L: Lanes>(&mut self, place: usize, by: Vec3x8<L>) {
-        (Vec3x8::read(self.offset, place) + by).write(self.offset, place);
-    }
-
     /// In groups of eight from the first place on.
     #[inline(always)]
     pub(super) fn eights(&mut self) -> MovingEights<'_> {
@@ -294,28 +325,21 @@ pub(super) struct Knots<'a> {
 impl<'a> Knots<'a> {
     #[inline(always)]
     pub(super) fn of<'b: 'a>(moving: &'a mut Moving<'b>, masses: &'a [f32]) -> Self {
-        let [x, y, z] = moving.start;
-        let [u, v, w] = &mut *moving.offset;
-        let count = [x, y, z, u, v, w].iter().map(|numbers| numbers.len()).fold(masses.len(), usize::min);
-        Self {
-            start: [&x[..count], &y[..count], &z[..count]],
-            offset: [&mut u[..count], &mut v[..count], &mut w[..count]],
-            inverse_mass: &masses[..count],
-        }
+        let Moving { start, offset } = moving;
+        let lengths = start.iter().chain(offset.iter()).map(Vec::len);
+        let count = lengths.fold(masses.len(), usize::min);
+        Self { start: cut(start, count), offset: cut_mut(offset, count), inverse_mass: &masses[..count] }
     }
 
     #[inline(always)]
     pub(super) fn has_eight_at(&self, place: usize) -> bool {
-        self.inverse_mass.len().checked_sub(LANES).is_some_and(|last| place <= last)
+        has_eight(self.inverse_mass, place)
     }
 
     /// Where the small step of the eight from `place` on began, and how far they are from there.
     #[inline(always)]
     pub(super) fn read<L: Lanes>(&self, place: usize) -> [Vec3x8<L>; 2] {
-        let [x, y, z] = self.start;
-        let [u, v, w] = &self.offset;
-        let start = Vec3x8::new(read(x, place), read(y, place), read(z, place));
-        [start, Vec3x8::new(read(u, place), read(v, place), read(w, place))]
+        [Vec3x8::read(&self.start, place), Vec3x8::read(&self.offset, place)]
     }
 
     #[inline(always)]
@@ -326,10 +350,7 @@ impl<'a> Knots<'a> {
     /// Puts them so far from where their small step began.
     #[inline(always)]
     pub(super) fn write<L: Lanes>(&mut self, place: usize, offset: Vec3x8<L>) {
-        let [u, v, w] = &mut self.offset;
-        write(offset.x, u, place);
-        write(offset.y, v, place);
-        write(offset.z, w, place);
+        offset.write(&mut self.offset, place);
     }
 }
 
@@ -373,13 +394,30 @@ fn eights_mut(numbers: &mut [f32]) -> &mut [[f32; LANES]] {
     numbers.as_chunks_mut().0
 }
 
+/// The first numbers of each coordinate.
 #[inline(always)]
-pub(super) fn get(numbers: &Coordinates, place: usize) -> Vec3 {
+fn cut([x, y, z]: &Coordinates, count: usize) -> [&[f32]; 3] {
+    [&x[..count], &y[..count], &z[..count]]
+}
+
+/// As [`cut`].
+#[inline(always)]
+fn cut_mut([x, y, z]: &mut Coordinates, count: usize) -> [&mut [f32]; 3] {
+    [&mut x[..count], &mut y[..count], &mut z[..count]]
+}
+
+#[inline(always)]
+fn has_eight(numbers: &[f32], place: usize) -> bool {
+    numbers.len().checked_sub(LANES).is_some_and(|last| place <= last)
+}
+
+#[inline(always)]
+pub(super) fn get(numbers: &[impl Deref<Target = [f32]>; 3], place: usize) -> Vec3 {
     Vec3::new(numbers[0][place], numbers[1][place], numbers[2][place])
 }
 
 #[inline(always)]
-fn add(numbers: &mut Coordinates, place: usize, by: Vec3) {
+fn add(numbers: &mut [impl DerefMut<Target = [f32]>; 3], place: usize, by: Vec3) {
     for (numbers, by) in numbers.iter_mut().zip(by.to_array()) {
         numbers[place] += by;
     }

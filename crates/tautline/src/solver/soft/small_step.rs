@@ -10,7 +10,6 @@ use super::hinge;
 use super::hot::Contacts;
 use super::pair::{Parting, part_pair};
 use super::piece::{Layout, Piece};
-use super::point_slices::PointSlices;
 use super::points::{Points, SmallStep};
 use super::sheet::Sheet;
 use super::solid::Solid;
@@ -355,7 +354,7 @@ impl Kernel for SweepWindows<'_, '_> {
                 }
                 let (mut moving, masses) = points.moving();
                 grid.sweep::<L>(&mut moving, masses, window, (&limits, is_even));
-                let mut points = PointSlices::of(points);
+                let mut points = points.slices();
                 for &([a, b], distance) in pairs {
                     let parting = Parting { distance, most: 0.0, friction: 0.0, turn: Vec3::ZERO };
                     part_pair(&mut points, [a as usize, b as usize], parting);
@@ -399,7 +398,7 @@ impl Kernel for PushOut<'_, '_> {
     fn run<L: Lanes>(self) {
         let SoftSolver { points, pieces, touches, .. } = self.solver;
         let push = self.push;
-        let mut points = PointSlices::of(points);
+        let mut points = points.slices();
         for touch in touches {
             let solid = &mut self.solids[touch.solid as usize];
             if touch.solve::<L>(&mut points, solid, push) {
@@ -409,3 +408,7 @@ impl Kernel for PushOut<'_, '_> {
         }
     }
 }
+
+#[cfg(test)]
+#[path = "tests/small_step.rs"]
+mod tests;

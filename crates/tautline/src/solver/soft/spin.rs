@@ -151,7 +151,7 @@ impl Spin {
             let is_free = read::<L>(&points.inverse_mass, place).greater(L::splat(0.0));
             let shift = turn.cross(points.eight_begun_at(place) - center - off);
             let shift = Vec3x8::new(is_free.and(shift.x), is_free.and(shift.y), is_free.and(shift.z));
-            points.moving().0.shift(place, shift);
+            points.shift_eight(place, shift);
         }
     }
 }

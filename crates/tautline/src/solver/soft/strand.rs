@@ -5,8 +5,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::point_slices::PointSlices;
-use super::points::Points;
+use super::points::{PointSlices, Points};
 use super::spin::Couples;
 use super::tile::{Bounds, Tile};
 use crate::norm::Norm;
@@ -173,7 +172,7 @@ impl Strands {
         couples: &mut Couples,
         mut leans: impl FnMut(u32),
     ) {
-        let mut points = PointSlices::of(points);
+        let mut points = points.slices();
         for brush in &self.brushes {
             if brush.part(&mut points, recovery, couples) && brush.leaning != u32::MAX {
                 leans(brush.leaning);

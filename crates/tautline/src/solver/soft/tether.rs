@@ -85,7 +85,7 @@ impl Tethers {
             let is_taut = length.greater(most).and(is_free);
             if is_taut.bits() != 0 {
                 let share = is_taut.and(most / length - L::splat(1.0));
-                points.moving().0.shift(place, away * share);
+                points.shift_eight(place, away * share);
             }
         }
     }

@@ -6,8 +6,7 @@
 
 use glam::{Mat3, Vec3};
 
-use super::point_slices::PointSlices;
-use super::points::Points;
+use super::points::{PointSlices, Points};
 use super::probe::{Facet, Form, Probe, probe_triangles};
 use super::solid::{Matter, Solid, Stance, part_bounds};
 use super::tile::{Bounds, Tile, within};

@@ -244,7 +244,7 @@ fn a_pair_is_parted_and_keeps_its_momentum() {
             let mut points = pair(gap, closing);
             let before = points.clone();
             let parting = Parting { distance: DISTANCE, most: f32::MAX, friction, turn: Vec3::ZERO };
-            let told = part_pair(&mut PointSlices::of(&mut points), [0, 1], parting);
+            let told = part_pair(&mut points.slices(), [0, 1], parting);
             assert_eq!(told.is_some(), gap < DISTANCE);
             let told = told.unwrap_or(Vec3::ZERO);
             assert!((turned(&points) - turned(&before) - told).length() < 1e-9, "{gap}: {told}");
@@ -271,7 +271,7 @@ fn what_turns_with_the_whole_does_not_rub() {
     let slip = points.motion(1) - points.motion(0);
     let turn = between.cross(slip) / between.length_squared();
     let parting = Parting { distance: DISTANCE, most: 0.0, friction: 0.5, turn };
-    let told = part_pair(&mut PointSlices::of(&mut points), [0, 1], parting).unwrap();
+    let told = part_pair(&mut points.slices(), [0, 1], parting).unwrap();
     let change = points.motion(1) - points.motion(0) - slip;
     assert!(told.length() < 1e-9 && change.cross(between).length() < 1e-9, "{told}, {change}");
 }

@@ -135,7 +135,7 @@ fn crossing_segments_are_parted_and_momentum_is_kept() {
         let mut couples = Couples::default();
         let couple = couples.number([0, 1]);
         let near = Near { a: [0, 1], b: [2, 3], distance: 0.05, friction: 0.0, couple };
-        near.part(&mut PointSlices::of(&mut points), f32::MAX, &mut couples);
+        near.part(&mut points.slices(), f32::MAX, &mut couples);
         // Without friction contacts are central.
         assert!((turned(&points) - turn).length() < 1e-7, "{height}, {fall}");
         let now = [[0, 1], [2, 3]].map(|ends| ends.map(|k| points.at(k)));

@@ -45,7 +45,7 @@ impl Kernel for Steps<'_> {
         let push = Push { recovery: f32::INFINITY, left: 0.0 };
         for _ in 0..count {
             for touch in &mut touches {
-                touch.solve::<L>(&mut PointSlices::of(&mut points), &mut solid, push);
+                touch.solve::<L>(&mut points.slices(), &mut solid, push);
             }
             solid.advance();
         }
