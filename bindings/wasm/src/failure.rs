@@ -39,7 +39,7 @@ impl Failure {
     pub(crate) fn located(mut self, text: &str, format: &str) -> Self {
         let Ok(format) = notation(format) else { return self };
         for (problem, place) in self.problems.iter().zip(&mut self.places) {
-            *place = place.or_else(|| locate(text, format, &problem.path));
+            place.get_or_insert_with(|| locate(text, format, &problem.path));
         }
         self
     }

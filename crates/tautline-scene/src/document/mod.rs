@@ -19,6 +19,7 @@ mod rigid;
 mod settings;
 mod shape;
 mod soft;
+mod toml;
 mod validate;
 mod value;
 

@@ -159,12 +159,6 @@ impl Visitor<'_> for IndexOrName {
         Ok(Ok(index))
     }
 
-    // TOML reads every integer as a signed one.
-    fn visit_i64<E: Error>(self, index: i64) -> Result<Self::Value, E> {
-        let index = u32::try_from(index).map_err(|_| E::invalid_value(Unexpected::Signed(index), &self))?;
-        Ok(Ok(index))
-    }
-
     fn visit_str<E: Error>(self, name: &str) -> Result<Self::Value, E> {
         Ok(Err(name.to_owned()))
     }
