@@ -159,6 +159,11 @@ impl Visitor<'_> for IndexOrName {
         Ok(Ok(index))
     }
 
+    // What comes here is negative.
+    fn visit_i64<E: Error>(self, index: i64) -> Result<Self::Value, E> {
+        Err(E::invalid_value(Unexpected::Signed(index), &self))
+    }
+
     fn visit_str<E: Error>(self, name: &str) -> Result<Self::Value, E> {
         Ok(Err(name.to_owned()))
     }

@@ -173,19 +173,18 @@ impl<'a> Reader<'a> {
                 json.push_str(decoded.trim_start_matches('+'));
             }
             ScalarKind::Float => {
-                return Err(Refusal::new(offset, format!("{decoded} is not a finite number")));
+                return Err(Refusal::new(offset, format!("{} is not a finite number", raw.as_str())));
             }
             ScalarKind::Integer(radix) => match i64::from_str_radix(&decoded, radix.value()) {
                 Ok(integer) => _ = write!(json, "{integer}"),
                 Err(_) => {
                     let message =
-                        format!("{decoded} is not an integer of 64 bits; with a point it is a number");
+                        format!("{} is no integer of 64 bits: write it with a decimal point", raw.as_str());
                     return Err(Refusal::new(offset, message));
                 }
             },
             ScalarKind::DateTime => {
-                let message = "a date or time is nothing in a scene: text has quotes around it";
-                return Err(Refusal::new(offset, message));
+                return Err(Refusal::new(offset, "a scene has no dates and times: put text in quotes"));
             }
         }
         Ok(())

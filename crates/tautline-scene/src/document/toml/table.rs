@@ -31,7 +31,7 @@ impl OpenKeys {
 
     fn add(&mut self, offset: usize) -> Outcome {
         if self.0 == Self::MOST {
-            let message = format!("there are more than {} keys in tables that may be added to", Self::MOST);
+            let message = format!("there are more than {} keys in tables that are not complete", Self::MOST);
             return Err(Refusal::new(offset, message));
         }
         self.0 += 1;
@@ -144,7 +144,11 @@ impl<'a> Table<'a> {
                 table.origin = Origin::Dotted;
                 Ok(table)
             }
-            _ => Err(Refusal::new(offset, "it is written elsewhere: a dotted key adds nothing to it")),
+            // The library `toml` lets a dotted key into a table of the last of the list; TOML does not.
+            Member::Tables(_) => {
+                Err(Refusal::new(offset, "it is a list of tables: a dotted key adds nothing to it"))
+            }
+            _ => Err(Refusal::new(offset, "it is there already: a dotted key adds nothing to it")),
         }
     }
 
