@@ -6,14 +6,14 @@ use super::toml;
 /// Line and column, from 1, of the value at a path such as `bodies[3].cloth.mass` in a text that has been parsed; of
 /// the innermost value on the way to it that is there. Of a table of TOML that has a header, it is that of its name there.
 pub fn locate(text: &str, format: Format, path: &str) -> (usize, usize) {
-    let offset = match format {
-        Format::Json | Format::Json5 => offset_in_json(text, path),
-        Format::Toml => toml::offset_of(text, path),
-    };
-    line_and_column(text, offset)
+    match format {
+        Format::Json | Format::Json5 => locate_in_json(text, path),
+        Format::Toml => line_and_column(text, toml::offset_of(text, path)),
+    }
 }
 
-fn offset_in_json(text: &str, path: &str) -> usize {
+/// As [`locate`], in JSON or JSON5: a program that reads nothing else need not carry what reads TOML.
+pub fn locate_in_json(text: &str, path: &str) -> (usize, usize) {
     let mut scanner = Scanner { text, at: 0 };
     scanner.skip_space();
     let mut place = scanner.at;
@@ -27,7 +27,7 @@ fn offset_in_json(text: &str, path: &str) -> usize {
         }
         place = scanner.at;
     }
-    place
+    line_and_column(text, place)
 }
 
 /// Reads JSON or JSON5 that is known to be sound: it looks for places and judges nothing.
