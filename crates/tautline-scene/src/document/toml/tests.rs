@@ -8,12 +8,12 @@ use super::super::limits;
 use super::*;
 
 fn json(text: &str) -> String {
-    to_json(text).unwrap_or_else(|refusal| panic!("{text}: {refusal:?}"))
+    to_json(text).expect(text)
 }
 
 /// Line, column and message.
 fn refused(text: &str) -> (usize, usize, String) {
-    let refusal = to_json(text).map(|json| panic!("{text}: {json}")).unwrap_err();
+    let refusal = to_json(text).expect_err(text);
     let before = &text[..refusal.offset];
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
     (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1, refusal.message)
