@@ -1,7 +1,7 @@
 //! Refusals, as the package turns them into its `TautlineError`.
 
 use serde_json::{Value, json};
-use tautline_scene::document::locate;
+use tautline_scene::document::locate_in_json;
 use tautline_scene::mesh_file::Refusal;
 use tautline_scene::{Error, Problem};
 use wasm_bindgen::JsValue;
@@ -37,9 +37,11 @@ impl Failure {
 
     /// With the places of problems in the text that they are of, where those are not known yet.
     pub(crate) fn located(mut self, text: &str, format: &str) -> Self {
-        let Ok(format) = notation(format) else { return self };
+        if notation(format).is_err() {
+            return self;
+        }
         for (problem, place) in self.problems.iter().zip(&mut self.places) {
-            *place = place.or_else(|| locate(text, format, &problem.path));
+            place.get_or_insert_with(|| locate_in_json(text, &problem.path));
         }
         self
     }

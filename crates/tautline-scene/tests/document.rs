@@ -204,6 +204,36 @@ fn what_cannot_be_read_is_refused_with_its_place_and_path() {
 }
 
 #[test]
+fn wrong_values_are_refused_where_they_are_in_toml() {
+    for (text, expected) in [
+        (
+            "tautline = 1\nseconds = 'long'",
+            "line 2, column 11: seconds: invalid type: string \"long\", expected f32",
+        ),
+        ("tautline = 1\nseconds = 1e400", "line 2, column 11: seconds: number out of range"),
+        (
+            "tautline = 1\nbodies = [{ rope = {} },\n { cloth = { mass.kg = 1 } }]",
+            "line 3, column 14: bodies[1].cloth.mass: invalid type: map, expected f32",
+        ),
+        (
+            "tautline = 1\n[[bodies]]\nrope = {}\n[[bodies]]\n  [bodies.rope]\n  colour = 1 # it is",
+            "line 6, column 12: bodies[1].rope.colour: unknown field `colour`",
+        ),
+        (
+            "tautline = 1\n[[bodies]]\n[[bodies.rope.pins]]",
+            "line 3, column 15: bodies[0].rope.pins[0]: invalid type: map, expected the index of a particle",
+        ),
+        ("[camera]\nfov = 1", "line 1, column 1: missing field `tautline`"),
+        ("tautline = 1\n[bounds]\nmin = [0, 0, 0]", "line 2, column 2: bounds: missing field `max`"),
+        ("tautline = 1\nseconds = nan", "line 2, column 11: nan is not a finite number"),
+        ("tautline = 1\nname = 'a\nb'", "line 2, column 10: invalid literal string, expected `'`"),
+    ] {
+        let error = parse(text, Format::Toml).unwrap_err().to_string();
+        assert!(error.starts_with(expected), "{text}: {error}");
+    }
+}
+
+#[test]
 fn messages_quote_little_and_nothing_that_a_terminal_obeys() {
     let long = "Ä".repeat(1 << 16);
     for (text, part) in [
@@ -384,12 +414,17 @@ fn many_problems_are_counted_rather_than_listed() {
     assert!(problems[100].contains("150 more"), "{}", problems[100]);
 }
 
-/// Runs a refusal, which must take next to no time.
-fn refused_at_once(what: &str, refuse: impl Fn() -> String) {
+/// Runs what must take next to no time.
+fn at_once(what: &str, run: impl Fn() -> String) -> String {
     let start = worked();
-    let message = refuse();
+    let outcome = run();
     let took = worked() - start;
     assert!(took < 0.1, "{what}: {took} s");
+    outcome
+}
+
+fn refused_at_once(what: &str, refuse: impl Fn() -> String) {
+    let message = at_once(what, refuse);
     assert!(message.contains("more than") || message.contains("whole number"), "{what}: {message}");
 }
 
@@ -408,12 +443,27 @@ fn what_is_too_large_is_refused_without_being_built() {
     refused_at_once("rope", || error(rope, Format::Json5).to_string());
     let cloths = format!("{{tautline: 1, bodies: [{}]}}", "{cloth: {}},".repeat(2501));
     refused_at_once("particles", || error(&cloths, Format::Json5).to_string());
-    for line in ["[[bodies]]\n", "#\n", "a.a=1\n", "a={}\n"] {
-        let toml = "tautline = 1\n".to_owned() + &line.repeat(200_000);
-        refused_at_once(line, || error(&toml, Format::Toml).to_string());
-    }
+    let bodies = "tautline = 1\n".to_owned() + &"[[bodies]]\nrope={}\n".repeat(60_000);
+    refused_at_once("bodies in TOML", || error(&bodies, Format::Toml).to_string());
     let scene = Scene { bodies: vec![Body::HalfSpace(Default::default()); 50_001], ..Scene::default() };
     refused_at_once("list", || scene.check().unwrap_err().to_string());
+}
+
+#[test]
+fn long_texts_of_little_are_read_or_refused_at_once() {
+    for (line, expected) in [
+        ("#\n", "0 bodies"),
+        ("[[bodies]]\n", "line 2, column 3: bodies[0]: expected value"),
+        ("a.a=1\n", "line 3, column 3: there is something of this name already"),
+        ("a={}\n", "line 3, column 1: there is something of this name already"),
+    ] {
+        let text = "tautline = 1\n".to_owned() + &line.repeat(200_000);
+        let read = || parse(&text, Format::Toml);
+        let outcome = at_once(line, || {
+            read().map_or_else(|e| e.to_string(), |scene| format!("{} bodies", scene.bodies.len()))
+        });
+        assert_eq!(outcome, expected);
+    }
 }
 
 #[test]

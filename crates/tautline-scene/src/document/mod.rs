@@ -19,6 +19,7 @@ mod rigid;
 mod settings;
 mod shape;
 mod soft;
+mod toml;
 mod validate;
 mod value;
 
@@ -30,7 +31,7 @@ pub use body::{Body, HalfSpace, Room, Rope};
 pub use cloth::{Cloth, Creep};
 pub use cue::Cue;
 pub use joint::{Joint, JointKind, Motor, Spring};
-pub use locate::locate;
+pub use locate::{locate, locate_in_json};
 pub(crate) use parse::line_and_column;
 pub use parse::{Format, json_of_json5, parse, parse_part};
 pub use rigid::{Damping, Groups, Motion, Rigid};

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde::de::{DeserializeOwned, IgnoredAny};
 use serde::{Deserialize, Deserializer};
 
-use super::{Scene, limits, nesting};
+use super::{Scene, limits, locate, nesting, toml};
 use crate::error::{Error, ParseError, legible};
 
 /// A notation for documents.
@@ -33,13 +33,6 @@ impl Format {
 
 /// The most bytes of JSON5 that become JSON: in between they take up to a hundred times as much memory.
 const JSON5_BYTES: usize = 16 << 20;
-
-/// The most bytes of TOML.
-const TOML_BYTES: usize = 2 << 20;
-
-/// The most signs in TOML that begin or end something: for each its parser takes up to 300 bytes of memory, which a text of
-/// nothing else would make a hundred times its size. Of the named scenes, the largest has 134 000.
-const TOML_SIGNS: usize = 200_000;
 
 /// Reads a document. Its values are not judged: that is [`Scene::check`].
 ///
@@ -130,20 +123,18 @@ fn message_json5(error: &json5::Error) -> String {
 }
 
 fn parse_toml(text: &str) -> Result<Scene, Error> {
-    let signs = text.bytes().filter(|byte| b",=.[{#\n".contains(byte)).count();
-    for (count, what, most) in
-        [(text.len(), "bytes", TOML_BYTES), (signs, "commas, dots, lines …", TOML_SIGNS)]
-    {
-        if count > most {
-            let message = format!("{count} {what} are more than {most} in TOML: as JSON it may be larger");
-            return Err(refusal("", (1, 1), message));
+    let json = toml::to_json(text)
+        .map_err(|error| refusal("", line_and_column(text, error.offset), error.message))?;
+    let scene = parse_json(&json);
+    // To find a place in the text takes as much memory again.
+    drop(json);
+    scene.map_err(|error| match error {
+        Error::Parse(mut error) => {
+            (error.line, error.column) = locate(text, Format::Toml, &error.field);
+            Error::Parse(error)
         }
-    }
-    let place = |error: &toml::de::Error| line_and_column(text, error.span().map_or(0, |span| span.start));
-    let message = |error: &toml::de::Error| error.message().to_owned();
-    let deserializer =
-        toml::Deserializer::parse(text).map_err(|error| refusal("", place(&error), message(&error)))?;
-    at_path(deserializer, place, message)
+        other => other,
+    })
 }
 
 /// Reads a document and tells the path of the field that could not be read.

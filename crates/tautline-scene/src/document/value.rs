@@ -159,10 +159,9 @@ impl Visitor<'_> for IndexOrName {
         Ok(Ok(index))
     }
 
-    // TOML reads every integer as a signed one.
+    // What comes here is negative.
     fn visit_i64<E: Error>(self, index: i64) -> Result<Self::Value, E> {
-        let index = u32::try_from(index).map_err(|_| E::invalid_value(Unexpected::Signed(index), &self))?;
-        Ok(Ok(index))
+        Err(E::invalid_value(Unexpected::Signed(index), &self))
     }
 
     fn visit_str<E: Error>(self, name: &str) -> Result<Self::Value, E> {
