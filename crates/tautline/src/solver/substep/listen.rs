@@ -126,8 +126,7 @@ impl Listener {
                 approach_speed: if heard.impulse > 0.0 { heard.approach_speed } else { 0.0 },
                 is_near: points.iter().any(near),
             };
-            let is_finite = press.normal.is_finite() && press.point.is_finite();
-            (is_finite && press.approach_speed.is_finite()).then_some((heard.pair, press))
+            press.is_finite().then_some((heard.pair, press))
         };
         let mut presses: Vec<(u32, Press)> = self.heard.iter().filter_map(press).collect();
         presses.put_in_order_by_key(|(pair, press)| (press.bodies, *pair));
@@ -147,6 +146,8 @@ impl Listener {
             }
         }
         sums.iter_mut().for_each(Press::normalise);
+        // Sums may be beyond all numbers, and so may means of what is far away.
+        sums.retain(Press::is_finite);
         sums
     }
 }
@@ -158,6 +159,11 @@ impl Heard {
 }
 
 impl Press {
+    fn is_finite(&self) -> bool {
+        let Self { impulse, normal, point, approach_speed, .. } = self;
+        impulse.is_finite() && normal.is_finite() && point.is_finite() && approach_speed.is_finite()
+    }
+
     /// Another pair of parts of the same bodies.
     fn add(&mut self, other: &Self) {
         self.impulse += other.impulse;
