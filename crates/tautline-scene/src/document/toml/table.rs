@@ -72,6 +72,9 @@ struct Tables<'a> {
     last: Table<'a>,
 }
 
+/// A table that a header leads into, with its index if it is of a list.
+type Entered<'t, 'a> = (&'t mut Table<'a>, Option<usize>);
+
 /// Where a value goes.
 pub(super) struct Place<'t, 'a> {
     entry: VacantEntry<'t, Cow<'a, str>, (usize, Member<'a>)>,
@@ -126,15 +129,17 @@ impl<'a> Table<'a> {
         mut trail: Trail<'s>,
         open: &mut OpenKeys,
     ) -> Outcome<(&mut Self, Trail<'s>)> {
+        let Path { outer, last } = path;
         let mut table = self;
-        for key in path.outer {
-            (table, trail) = table.enter_by_header(key, trail, open)?;
+        for key in outer {
+            let (offset, outside) = (key.offset, trail.key(&key.name, key.offset));
+            let (inner, index) = table.enter_by_header(key, open)?;
+            (table, trail) = (inner, outside.item_if(index, offset));
         }
-        if is_of_list {
-            return table.begin_item(path.last, trail, open);
-        }
-        let trail = trail.key(&path.last.name, path.last.offset);
-        Ok((table.begin_own(path.last, open)?, trail))
+        let (offset, outside) = (last.offset, trail.key(&last.name, last.offset));
+        let (table, index) =
+            if is_of_list { table.begin_item(last, open)? } else { (table.begin_own(last, open)?, None) };
+        Ok((table, outside.item_if(index, offset)))
     }
 
     fn enter_by_dot(&mut self, key: Key<'a>, open: &mut OpenKeys) -> Outcome<&mut Self> {
@@ -152,17 +157,11 @@ impl<'a> Table<'a> {
         }
     }
 
-    fn enter_by_header<'s>(
-        &mut self,
-        key: Key<'a>,
-        trail: Trail<'s>,
-        open: &mut OpenKeys,
-    ) -> Outcome<(&mut Self, Trail<'s>)> {
+    fn enter_by_header(&mut self, key: Key<'a>, open: &mut OpenKeys) -> Outcome<Entered<'_, 'a>> {
         let offset = key.offset;
-        let trail = trail.key(&key.name, offset);
         match self.member(key, open, || Member::Table(Self::made_by(Origin::Inner)))? {
-            Member::Table(table) => Ok((table, trail)),
-            Member::Tables(tables) => Ok((&mut tables.last, trail.item(tables.count - 1, offset))),
+            Member::Table(table) => Ok((table, None)),
+            Member::Tables(tables) => Ok(tables.enter_last()),
             Member::Value(_) => Err(Refusal::new(offset, "it is a value: a header adds nothing to it")),
         }
     }
@@ -178,14 +177,8 @@ impl<'a> Table<'a> {
         }
     }
 
-    fn begin_item<'s>(
-        &mut self,
-        key: Key<'a>,
-        trail: Trail<'s>,
-        open: &mut OpenKeys,
-    ) -> Outcome<(&mut Self, Trail<'s>)> {
+    fn begin_item(&mut self, key: Key<'a>, open: &mut OpenKeys) -> Outcome<Entered<'_, 'a>> {
         let offset = key.offset;
-        let trail = trail.key(&key.name, offset);
         let none = || Tables { count: 0, complete: String::new(), last: Self::new() };
         match self.member(key, open, || Member::Tables(Box::new(none())))? {
             Member::Tables(tables) => {
@@ -193,7 +186,7 @@ impl<'a> Table<'a> {
                     tables.complete_last(open);
                 }
                 tables.count += 1;
-                Ok((&mut tables.last, trail.item(tables.count - 1, offset)))
+                Ok(tables.enter_last())
             }
             _ => Err(is_there(offset)),
         }
@@ -249,7 +242,11 @@ impl Member<'_> {
     }
 }
 
-impl Tables<'_> {
+impl<'a> Tables<'a> {
+    fn enter_last(&mut self) -> Entered<'_, 'a> {
+        (&mut self.last, Some(self.count - 1))
+    }
+
     fn complete_last(&mut self, open: &mut OpenKeys) {
         if !self.complete.is_empty() {
             self.complete.push(',');
@@ -262,7 +259,7 @@ fn is_there(offset: usize) -> Refusal {
     Refusal::new(offset, "there is something of this name already")
 }
 
-/// Writes a string of JSON.
+/// Writes a string of JSON. Sign by sign, since a copy of it may be three times as long as the file.
 pub(super) fn write_string(text: &str, json: &mut String) {
     json.push('"');
     for c in text.chars() {

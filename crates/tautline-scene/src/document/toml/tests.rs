@@ -4,7 +4,7 @@ use ::toml::Value as Toml;
 use proptest::prelude::*;
 use serde_json::Value as Json;
 
-use super::super::limits;
+use super::super::{Format, limits, parse};
 use super::*;
 
 fn json(text: &str) -> String {
@@ -129,6 +129,36 @@ fn values_are_found_by_their_paths() {
         assert!(found.starts_with(expected), "{path}: {found}");
     }
     assert_eq!(offset_of("a = [1, 2", "a[5]"), 4);
+}
+
+#[test]
+fn wrong_values_are_refused_where_they_are_in_toml() {
+    for (text, expected) in [
+        (
+            "tautline = 1\nseconds = 'long'",
+            "line 2, column 11: seconds: invalid type: string \"long\", expected f32",
+        ),
+        ("tautline = 1\nseconds = 1e400", "line 2, column 11: seconds: number out of range"),
+        (
+            "tautline = 1\nbodies = [{ rope = {} },\n { cloth = { mass.kg = 1 } }]",
+            "line 3, column 14: bodies[1].cloth.mass: invalid type: map, expected f32",
+        ),
+        (
+            "tautline = 1\n[[bodies]]\nrope = {}\n[[bodies]]\n  [bodies.rope]\n  colour = 1 # it is",
+            "line 6, column 12: bodies[1].rope.colour: unknown field `colour`",
+        ),
+        (
+            "tautline = 1\n[[bodies]]\n[[bodies.rope.pins]]",
+            "line 3, column 15: bodies[0].rope.pins[0]: invalid type: map, expected the index of a particle",
+        ),
+        ("[camera]\nfov = 1", "line 1, column 1: missing field `tautline`"),
+        ("tautline = 1\n[bounds]\nmin = [0, 0, 0]", "line 2, column 2: bounds: missing field `max`"),
+        ("tautline = 1\nseconds = nan", "line 2, column 11: nan is not a finite number"),
+        ("tautline = 1\nname = 'a\nb'", "line 2, column 10: invalid literal string, expected `'`"),
+    ] {
+        let error = parse(text, Format::Toml).unwrap_err().to_string();
+        assert!(error.starts_with(expected), "{text}: {error}");
+    }
 }
 
 /// Whether there is something in it that JSON has no words for.

@@ -45,6 +45,11 @@ impl<'s> Trail<'s> {
         self.follow(offset, |step| step.parse() == Ok(index))
     }
 
+    /// Into an item of a list, or no further.
+    pub(super) fn item_if(self, index: Option<usize>, offset: usize) -> Self {
+        index.map_or(self, |index| self.item(index, offset))
+    }
+
     fn follow(self, offset: usize, is_there: impl FnOnce(&str) -> bool) -> Self {
         let Self(Some((search, depth))) = self else { return Self::NONE };
         if !search.steps.get(depth).is_some_and(|step| is_there(step)) {

@@ -199,3 +199,26 @@ impl RigidSolver {
         self.listener.presses()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn press(bodies: [u32; 2], place: Vec3) -> Press {
+        let (normal, point) = (Vec3::Y * 1e26, place * 1e26);
+        Press { bodies, impulse: 1e26, normal, point, approach_speed: 0.0, is_near: true }
+    }
+
+    /// A world's own snapshot was refused for it.
+    #[test]
+    fn a_press_whose_sum_is_beyond_all_numbers_is_not_heard() {
+        let near = [press([0, 1], Vec3::X), press([0, 1], Vec3::X * 3.0)];
+        let far = [press([0, 2], Vec3::Z * -2e12), press([0, 2], Vec3::Z * -2e12)];
+        assert!(far.iter().all(Press::is_finite));
+        let listener =
+            Listener { is_needed: true, heard: Vec::new(), presses: near.into_iter().chain(far).collect() };
+        let heard = listener.presses();
+        assert_eq!(heard.iter().map(|press| press.bodies).collect::<Vec<_>>(), [[0, 1]]);
+        assert!((heard[0].point.x - 2.0).abs() < 1e-6, "{}", heard[0].point);
+    }
+}
