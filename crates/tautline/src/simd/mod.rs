@@ -6,6 +6,7 @@
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
+mod numbers;
 mod portable;
 #[cfg(not(target_arch = "wasm32"))]
 mod scalar;
@@ -13,15 +14,17 @@ mod vector;
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};
 
+pub(crate) use numbers::Numbers;
 pub(crate) use vector::{Matrix3x8, Vec3x8, column, read};
 
 /// How many numbers a group has.
 pub(crate) const LANES: usize = 8;
 
 /// Eight numbers in memory.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, Pod, Zeroable)]
 #[repr(C, align(32))]
 pub(crate) struct Row(pub(crate) [f32; LANES]);
 

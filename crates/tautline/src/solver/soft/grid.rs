@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use super::points::{Knots, Moving};
-use super::stick::{Span, Spans, relax_run};
+use super::stick::{Span, Spans, relax_run, relax_runs};
 use crate::simd::{LANES, Lanes};
 
 /// So many rows are relaxed in one colour before the next: a processor waits for what it has just written if it reads it
@@ -78,13 +78,9 @@ impl Grid {
         let mut knots = Knots::of(moving, masses);
         let Range { start: top, end: bottom } = window.rows.clone();
         for block in window.rows.clone().step_by(BLOCK) {
-            let places = (block..(block + BLOCK).min(bottom)).map(|row| first + row * stride);
-            for place in places.clone() {
-                relax_run(&mut knots, (place, place + half, from_even), along);
-            }
-            for place in places {
-                relax_run(&mut knots, (place + half, place + 1, from_odd), along);
-            }
+            let (place, rows) = (first + block * stride, BLOCK.min(bottom - block));
+            relax_runs(&mut knots, (place, place + half, from_even), (rows, stride), along);
+            relax_runs(&mut knots, (place + half, place + 1, from_odd), (rows, stride), along);
         }
         for parity in 0..2 {
             for row in (top + parity..bottom - 1).step_by(2) {
@@ -94,10 +90,11 @@ impl Grid {
             }
         }
         for parity in if is_even { [0, 1] } else { [1, 0] } {
-            for row in (top + parity..bottom - 1).step_by(2) {
-                let place = first + row * stride;
-                relax_run(&mut knots, (place, place + stride + half, from_even), across);
-                relax_run(&mut knots, (place + half, place + stride + 1, from_odd), across);
+            for block in (top + parity..bottom - 1).step_by(BLOCK) {
+                let (place, rows) = (first + block * stride, BLOCK.min(bottom - block) / 2);
+                let runs = (rows, 2 * stride);
+                relax_runs(&mut knots, (place, place + stride + half, from_even), runs, across);
+                relax_runs(&mut knots, (place + half, place + stride + 1, from_odd), runs, across);
             }
         }
     }

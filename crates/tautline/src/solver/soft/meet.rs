@@ -19,7 +19,7 @@ use super::tile::{Around, Bounds, MOST_EIGHTS, Tile, inside};
 use crate::constraint::Stick;
 use crate::norm::Norm;
 use crate::order::PutInOrder;
-use crate::simd::{LANES, Lanes, Vec3x8};
+use crate::simd::{LANES, Lanes, Numbers, Vec3x8};
 use glam::DVec3;
 
 /// Tiles that bend less than this (75°) together do not touch each other. Its cosine.
@@ -157,7 +157,7 @@ impl Meetings {
         self.tiles.clear();
         self.member_of.clear();
         self.lists.clear();
-        self.lows.iter_mut().chain(&mut self.highs).for_each(Vec::clear);
+        self.lows.iter_mut().chain(&mut self.highs).for_each(Numbers::clear);
         for numbers in &mut self.material {
             numbers.clear();
             numbers.resize(places, 0.0);

@@ -5,10 +5,10 @@ use std::ops::{Deref, DerefMut};
 use glam::Vec3;
 
 use super::rest::Calming;
-use crate::simd::{LANES, Lanes, Vec3x8, read};
+use crate::simd::{LANES, Lanes, Numbers, Vec3x8, read};
 
 /// Numbers by place: all x, all y, all z.
-pub(super) type Coordinates = [Vec<f32>; 3];
+pub(super) type Coordinates = [Numbers; 3];
 
 /// Particles by place. Where a place is of no particle, it weighs nothing (inverse mass 0) and is far from all others.
 ///
@@ -18,7 +18,7 @@ pub(super) type Coordinates = [Vec<f32>; 3];
 ///
 /// `R` is how numbers are held that contacts only read, `W` those that they write: see [`PointSlices`].
 #[derive(Debug, Clone, Default)]
-pub(super) struct Points<R = Vec<f32>, W = Vec<f32>> {
+pub(super) struct Points<R = Numbers, W = Numbers> {
     /// x₀, in m: where the small step began, to the nearest number.
     pub(super) start: [R; 3],
     /// e, in m: how far the particle is from there.
@@ -51,7 +51,7 @@ impl Points {
         for (place, x) in self.start[0].iter_mut().enumerate() {
             *x = NOWHERE * (1.0 + place as f32 / 1024.0);
         }
-        self.kick.iter_mut().for_each(Vec::clear);
+        self.kick.iter_mut().for_each(Numbers::clear);
         for numbers in [&mut self.inverse_mass, &mut self.presence] {
             numbers.clear();
             numbers.resize(length, 0.0);
@@ -326,7 +326,7 @@ impl<'a> Knots<'a> {
     #[inline(always)]
     pub(super) fn of<'b: 'a>(moving: &'a mut Moving<'b>, masses: &'a [f32]) -> Self {
         let Moving { start, offset } = moving;
-        let lengths = start.iter().chain(offset.iter()).map(Vec::len);
+        let lengths = start.iter().chain(offset.iter()).map(|numbers| numbers.len());
         let count = lengths.fold(masses.len(), usize::min);
         Self { start: cut(start, count), offset: cut_mut(offset, count), inverse_mass: &masses[..count] }
     }

@@ -4,7 +4,7 @@ use super::points::{Coordinates, Moving, Points, get, set};
 use super::stick::{Span, SpanAt, Spans, relax_spans};
 use super::thread::{Pivot, REGULARISATION, Threads};
 use crate::norm::Norm;
-use crate::simd::{LANES, Lanes, Row};
+use crate::simd::{LANES, Lanes, Numbers, Row};
 
 /// A rope among the points: its particles stand one after another.
 #[derive(Debug, Clone)]
@@ -30,7 +30,7 @@ pub(super) struct Bundle {
     mean_inverse_mass: f32,
     start: Coordinates,
     offset: Coordinates,
-    masses: Vec<f32>,
+    masses: Numbers,
 }
 
 impl Bundle {
@@ -52,7 +52,7 @@ impl Bundle {
             }
         }
         let length = (knots + 1) * LANES;
-        let zeros = || vec![0.0; length];
+        let zeros = || Numbers::zeros(length);
         // What is no knot is apart from its neighbours.
         let start = [(0..length).map(|place| place as f32).collect(), zeros(), zeros()];
         let offset = [zeros(), zeros(), zeros()];

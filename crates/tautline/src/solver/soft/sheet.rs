@@ -6,7 +6,7 @@ use super::hot::Windows;
 use super::points::{Coordinates, Moving, Points, eights};
 use super::stick::Span;
 use super::thread::{Pivot, REGULARISATION, Threads};
-use crate::simd::{LANES, Lanes};
+use crate::simd::{LANES, Lanes, Numbers};
 
 /// A sheet among the points.
 #[derive(Debug, Clone)]
@@ -27,7 +27,7 @@ pub(super) struct Sheet {
 struct Turned {
     start: Coordinates,
     offset: Coordinates,
-    masses: Vec<f32>,
+    masses: Numbers,
 }
 
 impl Sheet {

@@ -90,15 +90,25 @@ pub(super) fn pull<L: Lanes>(
 /// Relaxes `count` sticks: number k is from place `a + k` to `b + k`, and no place is in two of them. What lies beyond is
 /// read and written too, but not changed.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-pub(super) fn relax_run<L: Lanes>(
+pub(super) fn relax_run<L: Lanes>(knots: &mut Knots<'_>, run: (usize, usize, usize), spans: Spans<L>) {
+    relax_runs(knots, run, (1, 0), spans);
+}
+
+/// Relaxes so many alike runs, each `stride` places from the one before. Side by side: where the last eight of a run reach over
+/// places that its first have just written, a processor waits.
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+pub(super) fn relax_runs<L: Lanes>(
     knots: &mut Knots<'_>,
     (a, b, count): (usize, usize, usize),
+    (runs, stride): (usize, usize),
     spans: Spans<L>,
 ) {
     let last = spans.of_first(count % LANES);
     for k in (0..count).step_by(LANES) {
         let spans = if k + LANES <= count { spans } else { last };
-        relax(knots, [a + k, b + k], spans);
+        for run in 0..runs {
+            relax(knots, [a + k + run * stride, b + k + run * stride], spans);
+        }
     }
 }
 

@@ -1,13 +1,13 @@
 use glam::DVec3;
 
 use super::*;
-use crate::simd::Kernel;
+use crate::simd::{Kernel, Numbers};
 use crate::solver::soft::points::{Coordinates, set};
 use crate::solver::soft::tests::{cloud, farthest, in_f64, moved, noise3, on_all, weights};
 
 const STRIDE: usize = 16;
 
-struct Straighten(f32, usize, Coordinates, Vec<f32>);
+struct Straighten(f32, usize, Coordinates, Numbers);
 
 impl Kernel for Straighten {
     type Output = Coordinates;
@@ -68,7 +68,7 @@ fn free_lines_keep_their_momentum_and_angular_momentum() {
         // With one inner knot both are kept; with more, those of later colours act where the first have moved them.
         for knots in [3, 10] {
             let places = 8 + knots * STRIDE;
-            let masses: Vec<f32> = (0..places).map(|k| 1.0 + 0.2 * (k % 4) as f32).collect();
+            let masses: Numbers = (0..places).map(|k| 1.0 + 0.2 * (k % 4) as f32).collect();
             let found = on_all(|| Straighten(compliance, knots, cloud(places, 7), masses.clone()));
             let (before, after) = (in_f64(&cloud(places, 7)), in_f64(&found));
             for lane in 0..8 {
@@ -95,6 +95,6 @@ fn straight_lines_stay() {
         }
     }
     let before = in_f64(&positions);
-    let found = on_all(|| Straighten(0.0, 6, positions.clone(), vec![1.0; places]));
+    let found = on_all(|| Straighten(0.0, 6, positions.clone(), std::iter::repeat_n(1.0, places).collect()));
     assert!(farthest(&found, &before) < 1e-6);
 }

@@ -1,7 +1,7 @@
 use glam::{DVec3, Vec3};
 
 use super::*;
-use crate::simd::Kernel;
+use crate::simd::{Kernel, Numbers};
 use crate::solver::soft::points::{Coordinates, set};
 use crate::solver::soft::tests::{
     farthest, in_f64, moved, noise, noise3, on_all, relax_in_f64, sticks_by_colour,
@@ -14,11 +14,11 @@ fn weave() -> Weave {
 }
 
 /// A crumpled sheet; what is between its rows is full of noise, which no stick may see.
-fn sheet(grid: &Grid) -> (Coordinates, Vec<f32>) {
+fn sheet(grid: &Grid) -> (Coordinates, Numbers) {
     let length = grid.places().end + LANES;
     let mut positions: Coordinates =
         std::array::from_fn(|axis| (0..length).map(|k| 50.0 * noise(k * 3 + axis)).collect());
-    let mut masses = vec![0.0; length];
+    let mut masses = Numbers::zeros(length);
     for row in 0..grid.rows {
         for column in 0..grid.columns {
             let place = grid.place(row, column);

@@ -7,7 +7,7 @@ use glam::{DVec3, Vec3};
 use super::grid::Grid;
 use super::points::{Coordinates, Moving, Points, get, set};
 use crate::body::Cloth;
-use crate::simd::{Instructions, Kernel, run};
+use crate::simd::{Instructions, Kernel, Numbers, run};
 
 /// A number from −1 to 1 that looks random.
 pub(super) fn noise(k: usize) -> f32 {
@@ -22,13 +22,13 @@ pub(super) fn noise3(k: usize) -> Vec3 {
 
 /// Numbers by place, in the box from −1 to 1.
 pub(super) fn cloud(places: usize, seed: usize) -> Coordinates {
-    let mut positions: Coordinates = std::array::from_fn(|_| vec![0.0; places]);
+    let mut positions: Coordinates = std::array::from_fn(|_| Numbers::zeros(places));
     (0..places).for_each(|place| set(&mut positions, place, noise3(seed * 10_000 + place)));
     positions
 }
 
 /// Inverse masses from 0.5 to 1.5 kg⁻¹; of every fifth particle 0.
-pub(super) fn weights(places: usize) -> Vec<f32> {
+pub(super) fn weights(places: usize) -> Numbers {
     (0..places).map(|place| if place % 5 == 3 { 0.0 } else { 1.0 + 0.5 * noise(place) }).collect()
 }
 
@@ -48,7 +48,7 @@ where
 
 /// Where a kernel moves particles at rest.
 pub(super) fn moved(start: Coordinates, kernel: impl FnOnce(&mut Moving<'_>)) -> Coordinates {
-    let mut offset: Coordinates = std::array::from_fn(|_| vec![0.0; start[0].len()]);
+    let mut offset: Coordinates = std::array::from_fn(|_| Numbers::zeros(start[0].len()));
     kernel(&mut Moving { start: &start, offset: &mut offset });
     sums(&start, &offset)
 }

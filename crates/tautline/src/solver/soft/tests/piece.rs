@@ -1,7 +1,7 @@
 use glam::Vec3;
 
 use super::*;
-use crate::simd::{Instructions, Kernel, run};
+use crate::simd::{Instructions, Kernel, Numbers, run};
 use crate::solver::soft::bend::Lines;
 use crate::solver::soft::points::{get, set};
 use crate::solver::soft::tests::moved;
@@ -28,7 +28,7 @@ fn a_rolled_strip_has_the_bending_moment_of_a_plate() {
         [0, 1].map(|k| (bending_of(rigidity, [along, down], h)[k], [along, down][k], [down, along][k]))
     {
         let lines = Lines { start: 0, stride: LANES, knots, count: LANES, compliances: &[compliance; LANES] };
-        let mut positions: Coordinates = std::array::from_fn(|_| vec![0.0; knots * LANES]);
+        let mut positions: Coordinates = std::array::from_fn(|_| Numbers::zeros(knots * LANES));
         for knot in 0..knots {
             let angle = curvature * edge * knot as f32;
             let at = Vec3::new(angle.sin(), 1.0 - angle.cos(), 0.0) / curvature;

@@ -1,7 +1,7 @@
 use glam::{DVec3, Vec3};
 
 use super::*;
-use crate::simd::{Kernel, Row};
+use crate::simd::{Kernel, Numbers, Row};
 use crate::solver::soft::points::{Coordinates, set};
 use crate::solver::soft::stick::Span;
 use crate::solver::soft::tests::{cloud, farthest, in_f64, moved, on_all, weights};
@@ -11,7 +11,7 @@ const KNOTS: usize = 9;
 const STRIDE: usize = 24;
 const PLACES: usize = 8 + KNOTS * STRIDE;
 
-struct Solve<S>(S, f32, Coordinates, Vec<f32>);
+struct Solve<S>(S, f32, Coordinates, Numbers);
 
 impl Kernel for Solve<Span> {
     type Output = Coordinates;
@@ -121,7 +121,8 @@ fn so_are_threads_whose_sticks_have_spans_of_their_own() {
 /// Of a chain that hangs straight from a held knot all lengths are linear in what moves: one solve mends them all.
 #[test]
 fn a_stretched_chain_that_hangs_straight_is_mended_at_once() {
-    let (mut chain, mut masses) = (cloud(PLACES, 4), vec![1.0; PLACES]);
+    let mut chain = cloud(PLACES, 4);
+    let mut masses: Numbers = std::iter::repeat_n(1.0, PLACES).collect();
     for thread in 0..16 {
         let mut depth = 0.0;
         for knot in 0..KNOTS {
