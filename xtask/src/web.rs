@@ -34,7 +34,17 @@ pub(crate) fn compilations(project: &Project) -> [Command; 3] {
     let mut tool =
         cargo(project, &["build", "--locked", "--manifest-path", "bindings/wasm/bindgen/Cargo.toml"]);
     tool.env("CARGO_TARGET_DIR", tool_folder(project));
-    [program(project, "rustup", &["target", "add", TARGET]), cargo(project, &engine), tool]
+    let mut engine = cargo(project, &engine);
+    engine.args(["--config", &without_home()]);
+    [program(project, "rustup", &["target", "add", TARGET]), engine, tool]
+}
+
+/// A setting that keeps the folder of whoever builds the engine out of it, so that it has the same bytes wherever it is built.
+fn without_home() -> String {
+    let cargo_home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
+    let home = cargo_home.or_else(|| Some(std::env::home_dir()?.join(".cargo"))).unwrap_or_default();
+    // A literal string of TOML: folders of Windows have backslashes.
+    format!("target.{TARGET}.rustflags=['--remap-path-prefix={}=']", home.join("registry/src").display())
 }
 
 fn tool_folder(project: &Project) -> PathBuf {

@@ -25,6 +25,8 @@ fn main() -> ExitCode {
         .and_then(|bindgen| bindgen.generate_output())
         .and_then(|mut output| {
             traps::trap(output.wasm_mut());
+            // Says for linkers what is in it: browsers see for themselves.
+            output.wasm_mut().customs.remove_raw("target_features");
             output.emit(folder)
         });
     match done {

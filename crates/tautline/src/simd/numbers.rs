@@ -20,7 +20,8 @@ impl Numbers {
         self.0.clear();
     }
 
-    /// As of a `Vec`; the last row is filled up.
+    /// As of a `Vec`; the last row is filled up. Not inlined: what is downloaded has it once.
+    #[inline(never)]
     pub(crate) fn resize(&mut self, count: usize, number: f32) {
         self.0.resize(count.div_ceil(LANES), Row([number; LANES]));
     }
@@ -42,6 +43,7 @@ impl DerefMut for Numbers {
     }
 }
 
+#[cfg(test)]
 impl<'a> IntoIterator for &'a Numbers {
     type Item = &'a f32;
     type IntoIter = std::slice::Iter<'a, f32>;
@@ -52,6 +54,7 @@ impl<'a> IntoIterator for &'a Numbers {
 }
 
 /// The last row is filled up with zeros.
+#[cfg(test)]
 impl FromIterator<f32> for Numbers {
     fn from_iter<T: IntoIterator<Item = f32>>(numbers: T) -> Self {
         let mut own = Self::default();

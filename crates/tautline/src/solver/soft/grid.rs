@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use super::points::{Knots, Moving};
-use super::stick::{Span, Spans, relax_run, relax_runs};
+use super::stick::{Span, Spans, relax_runs};
 use crate::simd::{LANES, Lanes};
 
 /// So many rows are relaxed in one colour before the next: a processor waits for what it has just written if it reads it
@@ -85,8 +85,8 @@ impl Grid {
         for parity in 0..2 {
             for row in (top + parity..bottom - 1).step_by(2) {
                 let place = first + row * stride;
-                relax_run(&mut knots, (place, place + stride, even), down);
-                relax_run(&mut knots, (place + half, place + half + stride, odd), down);
+                relax_runs(&mut knots, (place, place + stride, even), (1, 0), down);
+                relax_runs(&mut knots, (place + half, place + half + stride, odd), (1, 0), down);
             }
         }
         for parity in if is_even { [0, 1] } else { [1, 0] } {

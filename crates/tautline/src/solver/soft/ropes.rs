@@ -53,9 +53,10 @@ impl Bundle {
         }
         let length = (knots + 1) * LANES;
         let zeros = || Numbers::zeros(length);
+        let [mut start, offset]: [Coordinates; 2] =
+            [[zeros(), zeros(), zeros()], [zeros(), zeros(), zeros()]];
         // What is no knot is apart from its neighbours.
-        let start = [(0..length).map(|place| place as f32).collect(), zeros(), zeros()];
-        let offset = [zeros(), zeros(), zeros()];
+        start[0].iter_mut().enumerate().for_each(|(place, x)| *x = place as f32);
         Self { ropes, knots, spans, stiff, mean_inverse_mass, start, offset, masses: zeros() }
     }
 

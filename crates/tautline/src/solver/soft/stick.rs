@@ -87,15 +87,9 @@ pub(super) fn pull<L: Lanes>(
     direction * free.greater(L::splat(0.0)).and(share)
 }
 
-/// Relaxes `count` sticks: number k is from place `a + k` to `b + k`, and no place is in two of them. What lies beyond is
-/// read and written too, but not changed.
-#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
-pub(super) fn relax_run<L: Lanes>(knots: &mut Knots<'_>, run: (usize, usize, usize), spans: Spans<L>) {
-    relax_runs(knots, run, (1, 0), spans);
-}
-
-/// Relaxes so many alike runs, each `stride` places from the one before. Side by side: where the last eight of a run reach over
-/// places that its first have just written, a processor waits.
+/// Relaxes runs of `count` sticks, of which each is `stride` places from the one before: number k of the first is from place
+/// `a + k` to `b + k`, and no place is in two of them. What lies beyond is read and written too, but not changed. Runs go
+/// side by side: where the last eight of one reach over places that its first have just written, a processor waits.
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(super) fn relax_runs<L: Lanes>(
     knots: &mut Knots<'_>,
@@ -132,10 +126,10 @@ fn relax<L: Lanes>(knots: &mut Knots<'_>, [a, b]: [usize; 2], spans: Spans<L>) {
 pub(super) fn relax_spans<L: Lanes>(
     moving: &mut Moving<'_>,
     masses: &[f32],
-    ends: [usize; 2],
+    [a, b]: [usize; 2],
     spans: Spans<L>,
 ) {
-    relax(&mut Knots::of(moving, masses), ends, spans);
+    relax_runs(&mut Knots::of(moving, masses), (a, b, LANES), (1, 0), spans);
 }
 
 #[cfg(test)]

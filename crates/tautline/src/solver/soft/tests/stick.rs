@@ -15,7 +15,7 @@ impl Kernel for Run {
         let Self(run, span, seed) = self;
         moved(cloud(PLACES, seed), |moving| {
             let masses = weights(PLACES);
-            relax_run(&mut Knots::of(moving, &masses), run, Spans::<L>::splat(span));
+            relax_runs(&mut Knots::of(moving, &masses), run, (1, 0), Spans::<L>::splat(span));
         })
     }
 }
