@@ -6,8 +6,8 @@
 //! its energy, and constraints do not drift. The equations are solved by Newton's method with the matrix at q.
 //!
 //! Where a substep is too long for that (a slack chain that snaps tight), the method finds no answer, or one in which
-//! joints do work. Then velocities are made such that J v = 0, which only ever takes energy. What this leaves of
-//! errors, or contacts have made, is undone by a motion that bodies give back once they have moved: see `lend`.
+//! joints do work. Then velocities are made such that J v = 0, which only ever takes energy: see `go_straight`. What this
+//! leaves of errors, or contacts have made, is undone by a motion that bodies give back once they have moved: see `lend`.
 
 use glam::Vec3;
 
@@ -107,13 +107,23 @@ impl Assembly {
     /// Finds the rows where the bodies are, and gives these what the joints did in the last substep.
     pub(super) fn warm_start(&mut self) {
         for work in &mut self.works {
-            work.prepare(&mut self.movers);
+            work.prepare(&self.movers);
+        }
+        self.stiffen();
+        for work in &self.works {
+            // Rows that bodies turned under are aimed anew with the multipliers of the last substep.
+            work.push(&mut self.movers, &work.joint.state.multipliers);
+        }
+    }
+
+    /// Finds the inertia that impulses meet under the loads that multipliers stand for.
+    fn stiffen(&mut self) {
+        for work in &self.works {
+            work.stiffen(&mut self.movers);
         }
         self.movers.iter_mut().for_each(Mover::settle);
         for work in &mut self.works {
             work.weigh(&self.movers);
-            // Rows that bodies turned under are aimed anew with the multipliers of the last substep.
-            work.push(&mut self.movers, &work.joint.state.multipliers);
         }
     }
 
@@ -121,10 +131,7 @@ impl Assembly {
     pub(super) fn solve(&mut self, pace: &Pace) {
         self.is_linear = false;
         if !(self.iterate(pace) && self.does_no_work()) {
-            // Beyond Newton's method; straight on there is always a solution.
-            self.is_linear = true;
-            self.begin_anew();
-            self.iterate(pace);
+            self.go_straight(pace);
         }
         self.lend();
         for work in &mut self.works {
@@ -159,6 +166,21 @@ impl Assembly {
             last_error = error;
         }
         false
+    }
+
+    /// Finds velocities with J v = 0, which there always are: twice, since the blow that a chain snaps tight with is many
+    /// times the load of the last substep. With the inertia that this one made, links between heavy bodies would turn
+    /// further than substeps can tell, and the more so in the next one, until the chain is drawn apart.
+    fn go_straight(&mut self, pace: &Pace) {
+        self.is_linear = true;
+        for knows_blow in [false, true] {
+            self.pull();
+            if knows_blow {
+                self.stiffen();
+            }
+            self.begin_anew();
+            self.iterate(pace);
+        }
     }
 
     fn look_ahead(&mut self) {
@@ -246,9 +268,8 @@ impl Assembly {
         }
     }
 
-    /// Goes back to how bodies would move without joints. To make J v = 0 from there takes energy.
+    /// Goes back to how bodies would move had joints not pulled them. To make J v = 0 from there takes energy.
     fn begin_anew(&mut self) {
-        self.pull();
         for (mover, pulled) in self.movers[..self.solved].iter_mut().zip(&self.pulled) {
             mover.calm(*pulled);
         }

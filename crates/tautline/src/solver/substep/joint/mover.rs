@@ -21,9 +21,11 @@ pub(super) struct Mover {
     /// Principal moments per mass, in m².
     inertia: Vec3,
     root_inertia: Vec3,
-    /// What loads add to the inertia that impulses meet, per mass; see `stiffen`.
+    /// What loads do to it, per mass; see `stiffen`. Summed up, the inertia that impulses meet.
     stiffness: Mat3,
     slow_inertia: Vec3,
+    /// That with which its rotation has the energy that it came with.
+    calm_inertia: Vec3,
     /// In 1/kg; 0 = nothing moves it.
     pub(super) inverse_mass: f32,
     /// In the substep, in m and rad.
@@ -57,6 +59,8 @@ impl Mover {
         self.root_inertia = column(&constants.root_inertia, lane);
         self.inverse_mass = constants.inverse_mass.0[lane];
         self.stiffness = Mat3::ZERO;
+        self.slow_inertia = self.inertia;
+        self.calm_inertia = self.inertia;
     }
 
     pub(super) fn read_motion(&mut self, velocities: &[Row]) {
@@ -114,11 +118,12 @@ impl Mover {
         self.stiffness += (Mat3::from_diagonal(Vec3::splat(force.dot(arm))) - lean) * self.inverse_mass;
     }
 
-    /// Sums up what loads do: by row, as Gershgorin bounds the frequencies.
+    /// Sums up what loads do: by row, as Gershgorin bounds the frequencies. Inertia only grows in a substep.
     pub(super) fn settle(&mut self) {
-        let columns = [self.stiffness.x_axis, self.stiffness.y_axis, self.stiffness.z_axis];
+        let stiffness = std::mem::replace(&mut self.stiffness, Mat3::ZERO);
+        let columns = [stiffness.x_axis, stiffness.y_axis, stiffness.z_axis];
         let bound = |k: usize| columns[k].abs().element_sum() - columns[k][k].abs() + columns[k][k];
-        self.slow_inertia = self.inertia.max(Vec3::new(bound(0), bound(1), bound(2)));
+        self.slow_inertia = self.slow_inertia.max(Vec3::new(bound(0), bound(1), bound(2)));
     }
 
     /// What an angular impulse (kg m² per substep) does to the rotation.
@@ -137,7 +142,8 @@ impl Mover {
     /// that impulses meet no greater than it is.
     pub(super) fn calm(&mut self, [linear, angular]: [Vec3; 2]) {
         let [rest, turn] = [self.linear - linear, self.axes.transpose() * (self.angular - angular)];
-        let share = (self.inertia / self.slow_inertia).map(f32::sqrt);
+        let share = (self.calm_inertia / self.slow_inertia).map(f32::sqrt);
+        self.calm_inertia = self.slow_inertia;
         [self.linear, self.angular] = [rest, self.axes * (turn * share)];
         self.gained = [self.linear - self.given[0], self.angular - self.given[1]].map(|gain| gain.as_dvec3());
     }

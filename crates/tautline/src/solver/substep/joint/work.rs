@@ -95,8 +95,8 @@ impl Work {
         [base, place(&self.joint.on_body, &movers[self.body as usize])]
     }
 
-    /// Finds the rows where the bodies are, and what their last loads do to the bodies.
-    pub(super) fn prepare(&mut self, movers: &mut [Mover]) {
+    /// Finds the rows where the bodies are.
+    pub(super) fn prepare(&mut self, movers: &[Mover]) {
         let [base, body] = self.placed(movers, false);
         let kind = &self.joint.kind;
         self.now = measure(kind, &base, &body, self.joint.state.angle);
@@ -104,6 +104,11 @@ impl Work {
         if let Kind::Hinge(_) = kind {
             self.joint.state.angle = self.now[5];
         }
+    }
+
+    /// Adds what the multipliers do to the stiffness of the two bodies.
+    pub(super) fn stiffen(&self, movers: &mut [Mover]) {
+        let [base, body] = self.placed(movers, false);
         let load = |(row, multiplier): (&JointRow, &f32)| row.linear * *multiplier;
         let force: Vec3 = self.rows.iter().zip(&self.joint.state.multipliers).map(load).sum();
         movers[self.body as usize].stiffen(force, body.arm);
