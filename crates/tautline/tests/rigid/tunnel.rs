@@ -255,6 +255,22 @@ proptest! {
     }
 }
 
+/// It strikes a triangle, rolls on by 58 rad in a substep, and foresees that it will touch the next one.
+#[test]
+fn a_rolling_ball_foresees_the_ground_under_it() {
+    let shot = Shot {
+        bullet: Bullet::Ball(0.0005),
+        wall: Wall::HeightField(0.3),
+        speed: 27.192_589,
+        turn: Vec3::new(1.199_185_5, 0.560_150_15, -1.655_243_9),
+        spin: Vec3::ZERO,
+        aim: Vec3::new(0.960_910_7, -0.086_278_096, 0.743_944_35),
+        slant: Vec3::new(0.702_755_4, -0.604_843_26, 0.853_467_3),
+        phase: 0.219_600_53,
+    };
+    assert_eq!(way(&shot), Way::Stopped);
+}
+
 /// It strikes the field's edge, is bent forward half a millimetre outside of the outline, and is behind the wall's middle
 /// at the end of the same step.
 #[test]

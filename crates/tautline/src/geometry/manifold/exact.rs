@@ -5,6 +5,7 @@ use glam::{DMat3, DVec3, Vec3};
 
 use super::clip::Polygon;
 use super::core::{Core, Pair};
+use super::reduce::{Candidate, Former, reduce};
 use super::touch::Touch;
 use crate::geometry::epa::Epa;
 use crate::geometry::gjk::{self, MAX_ITERATIONS, Proximity};
@@ -16,6 +17,18 @@ use crate::norm::Norm;
 pub(crate) struct Scratch {
     epa: Epa,
     pub(super) polygon: Polygon,
+    /// Of the pair to be looked at next.
+    pub(crate) former: Former,
+}
+
+impl Scratch {
+    /// The best of the candidates, at most four; see [`reduce`].
+    #[inline(always)]
+    pub(super) fn reduce(&mut self, normal: Vec3, size: f32) -> &[Candidate] {
+        let candidates = &mut self.polygon.candidates;
+        let count = reduce(candidates, normal, size, &self.former);
+        &candidates[..count]
+    }
 }
 
 /// Corners of B, seen from A.

@@ -36,13 +36,12 @@ pub(super) fn remembered<L: Lanes, B: Core>(
         if search == Search::Global && is_deep::<L, B>(pair, normal, separation, size, false) {
             return None;
         }
-        let polygon = &mut scratch.polygon;
-        polygon.clip::<L, B>(pair, reference, margin + pair.radii());
+        scratch.polygon.clip::<L, B>(pair, reference, margin + pair.radii());
         // Also if there is none.
-        if polygon.deepest() > separation + MISSED * size {
+        if scratch.polygon.deepest() > separation + MISSED * size {
             return None;
         }
-        manifold = Manifold::of_candidates(pair, normal, &mut polygon.candidates, size);
+        manifold = Manifold::of_candidates(pair, normal, scratch, size);
     }
     (memory.axis, memory.separation) = (normal, apart);
     Some(manifold)
@@ -67,5 +66,5 @@ pub(super) fn touching<L: Lanes, B: Core>(
     if deepest > touch.separation + MISSED * touch.size {
         polygon.candidates.push(touch.candidate());
     }
-    Manifold::of_candidates(pair, reference.normal(), &mut polygon.candidates, touch.size)
+    Manifold::of_candidates(pair, reference.normal(), scratch, touch.size)
 }

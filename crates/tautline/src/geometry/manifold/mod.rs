@@ -27,6 +27,7 @@ use serde::{Deserialize, Serialize};
 pub(crate) use self::core::Placement;
 pub(crate) use exact::Scratch;
 pub(crate) use plane::collide_plane;
+pub(crate) use reduce::Former;
 pub(crate) use triangle::{Triangle, collide_triangle};
 
 use self::core::{Core, Pair};
@@ -35,14 +36,12 @@ use crate::shape::Convex;
 use crate::simd::Lanes;
 use clip::Reference;
 use key::{Body, Key};
-use reduce::{Candidate, reduce};
+use reduce::Candidate;
 use simplex::{Simplex, Vertex};
 use touch::{Search, Start, Touch, find};
 
 /// Most points of a manifold.
 pub(crate) const MAX_POINTS: usize = 4;
-/// What counts as deeper when points are chosen, as part of the size.
-const SLOP: f32 = 1e-4;
 
 /// A place where two bodies touch, or soon will.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -171,12 +170,11 @@ impl Manifold {
         manifold
     }
 
-    /// The best four.
+    /// The best four of the scratch's candidates.
     #[inline(always)]
-    fn of_candidates<B: Core>(pair: &Pair<B>, normal: Vec3, candidates: &mut [Candidate], size: f32) -> Self {
+    fn of_candidates<B: Core>(pair: &Pair<B>, normal: Vec3, scratch: &mut Scratch, size: f32) -> Self {
         let mut manifold = Self { normal, ..Self::default() };
-        let count = reduce(candidates, normal, SLOP * size);
-        for candidate in &candidates[..count] {
+        for candidate in scratch.reduce(normal, size) {
             manifold.push(pair, candidate);
         }
         manifold

@@ -3,8 +3,8 @@
 use glam::Vec3;
 
 use super::key::{Body, Key};
-use super::reduce::{Candidate, reduce};
-use super::{Manifold, ManifoldPoint, SLOP, Scratch};
+use super::reduce::Candidate;
+use super::{Manifold, ManifoldPoint, Scratch};
 use crate::norm::Norm;
 use crate::shape::Convex;
 use crate::simd::Lanes;
@@ -35,15 +35,14 @@ pub(crate) fn collide_plane<L: Lanes>(
         }
     }
     let size = a.vertices[lowest].norm() + a.radius;
-    let count = reduce(candidates, normal, SLOP * size);
-    for (point, candidate) in manifold.points.iter_mut().zip(&candidates[..count]) {
+    for (point, candidate) in manifold.points.iter_mut().zip(scratch.reduce(normal, size)) {
         *point = ManifoldPoint {
             on_a: candidate.on_a - normal * a.radius,
             on_b: candidate.on_a - normal * candidate.separation,
             separation: candidate.separation - a.radius,
             key: candidate.key.0,
         };
+        manifold.count += 1;
     }
-    manifold.count = count;
     manifold
 }

@@ -43,7 +43,7 @@ pub(super) fn capsules<B: Core>(
     if candidates.is_empty() {
         return Manifold::single(pair, touch);
     }
-    Manifold::of_candidates(pair, touch.normal, candidates, touch.size)
+    Manifold::of_candidates(pair, touch.normal, scratch, touch.size)
 }
 
 /// The ends of the stretch along which the segments run side by side; none if they are not parallel.

@@ -31,20 +31,20 @@ pub(super) struct Softness {
     pub(super) drift_rate: f32,
 }
 
+/// ωh / 2π: the springs' frequency as a share of the substeps' rate, 106 Hz at 1/480 s. Stiffer ones pull at joints.
+const FREQUENCY: f32 = 0.22;
 /// ζ: far over critical, so that nothing rings.
 const DAMPING_RATIO: f32 = 10.0;
 /// Drift of the anchors is undone at this share of the rate of depth.
 const DRIFT_SHARE: f32 = 0.25;
 
 impl Softness {
-    /// For substeps of `h` (s) in which bodies are moved apart at no more than `speed` (m/s). The stiffness that
-    /// stays stable grows with the substeps: 60 Hz at 1/240 s, 90 at 1/480, 120 at 1/960.
+    /// For substeps of `h` (s) in which bodies are moved apart at no more than `speed` (m/s).
     pub(super) fn new(h: f32, speed: f32) -> Self {
-        let frequency = 30.0 * libm::log2f(1.0 / (60.0 * h)).max(0.5);
-        let angular = std::f32::consts::TAU * frequency;
-        let damping = 2.0 * DAMPING_RATIO + h * angular;
-        let a = h * angular * damping;
-        let bias = h * angular / damping;
+        let turn = std::f32::consts::TAU * FREQUENCY;
+        let damping = 2.0 * DAMPING_RATIO + turn;
+        let a = turn * damping;
+        let bias = turn / damping;
         Self { bias, give: 1.0 / (1.0 + a), limit: speed * h, drift_rate: bias * DRIFT_SHARE }
     }
 }

@@ -13,7 +13,7 @@ use super::held::{Held, HeldPoint};
 use super::pairs::{Detail, Pair};
 use crate::body::{Body, HalfSpace, Substance};
 use crate::geometry::manifold::{
-    MAX_POINTS, Manifold, Memory, Placement, Scratch, collide, collide_plane, collide_triangle,
+    Former, MAX_POINTS, Manifold, Memory, Placement, Scratch, collide, collide_plane, collide_triangle,
 };
 use crate::geometry::query::Rounded;
 use crate::norm::Norm;
@@ -45,6 +45,9 @@ pub(super) struct Scene<'a> {
 
 /// Points further apart than this no longer hold on to each other, in m.
 const LETS_GO: f32 = 1e-3;
+/// A contact goes on as the last one did while its normal turns by less than 26° between them (cosine): what pressed
+/// along another would throw the bodies about.
+const SAME_WAY: f32 = 0.9;
 /// How near a point is to an older one to go on as it did, as a share of the size of the body, squared.
 const SAME_PLACE_SQUARED: f32 = 0.02;
 /// By how much the speed that bodies approach each other at counts for how far ahead contacts are found.
@@ -142,6 +145,7 @@ impl Kernel for Detect<'_> {
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn update<L: Lanes>(scene: Scene<'_>, pair: &mut Pair, detail: &mut Detail, scratch: &mut Scratch) {
     let a = scene.placed(pair.a);
+    scratch.former = Former::new(detail.held.iter().flat_map(Held::points).map(|point| point.key()));
     let (manifold, b) = match scene.shape(pair.b) {
         Some(shape) => {
             let b = scene.placed(pair.b);
@@ -290,7 +294,8 @@ fn hold(scene: Scene<'_>, manifold: &Manifold, (a, b): (&Placed, &Placed), pair:
         return;
     };
     let old_normal = old.normal();
-    for point in points.iter_mut() {
+    let is_same_way = normal.dot(old_normal) > SAME_WAY;
+    for point in points.iter_mut().filter(|_| is_same_way) {
         let Some(before) = predecessor(old, point.key(), point.on_a(), a.reach) else { continue };
         let distance = (b.center + b.axes * before.on_b()) - (a.center + a.axes * before.on_a());
         let sticks = before.normal_impulse() > 0.0 && distance.dot(old_normal) < LETS_GO;

@@ -70,13 +70,15 @@ impl Scene<'_> {
 
     fn way<'a>(&self, body: u32, placed: &Placed, shape: Rounded<'a>) -> Motion<'a> {
         let axes = placed.axes;
+        // A ball touches as one that does not turn: a contact in a frame that turns until then would stand aslant.
+        let is_ball = shape.corners.len() == 1;
         let columns = [axes.x_axis, axes.y_axis, axes.z_axis].map(|axis| axis.as_dvec3());
         Motion {
             shape,
             position: placed.center.as_dvec3(),
             rotation: DQuat::from_mat3(&DMat3::from_cols(columns[0], columns[1], columns[2])).normalize(),
             linear: (placed.motion + self.fall(body)).as_dvec3(),
-            angular: self.turn(body, axes).as_dvec3(),
+            angular: if is_ball { DVec3::ZERO } else { self.turn(body, axes).as_dvec3() },
         }
     }
 
