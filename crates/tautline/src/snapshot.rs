@@ -20,7 +20,7 @@ use crate::solver::substep::{Kept, RigidSolver};
 use crate::world::{Grabs, Scratch, World};
 
 const MAGIC: [u8; 8] = *b"tautline";
-const VERSION: u32 = 7;
+const VERSION: u32 = 8;
 
 /// Everything but the trusses and shapes, which bodies share: each is stored once, and by its number for each body.
 #[derive(Serialize, Deserialize)]

@@ -43,7 +43,7 @@ pub(super) fn remembered<L: Lanes, B: Core>(
         }
         manifold = Manifold::of_candidates(pair, normal, scratch, size);
     }
-    (memory.axis, memory.separation) = (normal, apart);
+    memory.axis = normal;
     Some(manifold)
 }
 

@@ -70,49 +70,57 @@ pub(crate) struct Manifold {
 
 /// What a pair remembers between calls. Any value will do, also one of another pair or from foreign bytes: a bad one
 /// costs time.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Memory {
     /// Unit, from A to B, in A's frame: the axis of the last call. Zero: none yet.
     pub(crate) axis: Vec3,
-    /// How far the surfaces were apart along it, in m.
-    pub(crate) separation: f32,
-    /// Corners of A and of B that were nearest; the first `count` are in use.
+    /// Corners of A and of B that were nearest, up to the first that are none.
     pairs: [[u16; 2]; 3],
-    count: u8,
+}
+
+/// Corners that do not exist.
+const NO_CORNERS: [u16; 2] = [u16::MAX; 2];
+
+impl Default for Memory {
+    fn default() -> Self {
+        Self::of_axis(Vec3::ZERO)
+    }
 }
 
 impl Memory {
+    fn of_axis(axis: Vec3) -> Self {
+        Self { axis, pairs: [NO_CORNERS; 3] }
+    }
+
+    fn corners(&self) -> impl Iterator<Item = [u16; 2]> {
+        self.pairs.into_iter().take_while(|&pair| pair != NO_CORNERS)
+    }
+
     /// Whether there is an axis, and all corners exist.
     #[inline(always)]
     fn is_usable<B: Core>(&self, pair: &Pair<B>) -> bool {
         let (count_a, count_b) = (pair.a.vertices.len(), pair.b.vertices().len());
         let exist = |[a, b]: [u16; 2]| usize::from(a) < count_a && usize::from(b) < count_b;
-        (self.axis.length_squared() - 1.0).abs() < 1e-3
-            && self.count <= 3
-            && self.pairs.into_iter().take(usize::from(self.count)).all(exist)
+        (self.axis.length_squared() - 1.0).abs() < 1e-3 && self.corners().all(exist)
     }
 
     /// The remembered corners, or if there are none `support`.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     fn simplex(&self, support: [u16; 2]) -> Simplex {
         let mut simplex = Simplex::default();
-        for &pair in &self.pairs[..usize::from(self.count)] {
+        for pair in self.corners() {
             simplex.push(Vertex { pair, point: Vec3::ZERO });
         }
-        if self.count == 0 {
+        if simplex.count == 0 {
             simplex.push(Vertex { pair: support, point: Vec3::ZERO });
         }
         simplex
     }
 
     #[inline(always)]
-    fn keep(&mut self, touch: &Touch, radii: f32) {
-        *self = Self {
-            axis: touch.normal,
-            separation: touch.separation - radii,
-            pairs: touch.pairs,
-            count: touch.count as u8,
-        };
+    fn keep(&mut self, touch: &Touch) {
+        *self = Self::of_axis(touch.normal);
+        self.pairs[..touch.count].copy_from_slice(&touch.pairs[..touch.count]);
     }
 }
 

@@ -26,8 +26,8 @@ pub(super) fn balls<B: Core>(pair: &Pair<B>, memory: &mut Memory, axis: Vec3, ma
     };
     let size = pair.a.size.min(pair.b.size());
     let touch = Touch { normal, separation: distance, on_a, on_b, pairs: [[0; 2]; 3], count: 1, size };
-    memory.keep(&touch, pair.radii());
-    if memory.separation <= margin { Manifold::single(pair, &touch) } else { Manifold::default() }
+    memory.keep(&touch);
+    if distance - pair.radii() <= margin { Manifold::single(pair, &touch) } else { Manifold::default() }
 }
 
 /// The contact of two segments whose cores are less than `limit` m apart.

@@ -94,12 +94,11 @@ impl Start {
     ) -> Option<Self> {
         let is_new = !memory.is_usable(pair);
         if is_new {
-            *memory = Memory { axis, ..Memory::default() };
+            *memory = Memory::of_axis(axis);
         }
         let (support, separation) = pair.support::<L>(memory.axis);
-        memory.separation = separation - pair.radii();
         // Not `>`: what is not a number touches nothing.
-        let may_touch = memory.separation <= margin;
+        let may_touch = separation - pair.radii() <= margin;
         may_touch.then(|| Self { is_new, scale: Scale::at(pair, support), support, separation })
     }
 
@@ -130,7 +129,6 @@ pub(super) fn find<L: Lanes, B: Core>(
     margin: f32,
     search: Search,
 ) -> Option<Touch> {
-    let radii = pair.radii();
     let mut exact = |axis| exact::touch(pair, scratch, axis, start.scale.size);
     let found = match climb::<L, B>(pair, memory, start, margin) {
         Climb::Beyond => return None,
@@ -148,8 +146,8 @@ pub(super) fn find<L: Lanes, B: Core>(
             }
         }
     };
-    memory.keep(&found, radii);
-    (found.separation - radii <= margin).then_some(found)
+    memory.keep(&found);
+    (found.separation - pair.radii() <= margin).then_some(found)
 }
 
 enum Climb {
@@ -170,9 +168,8 @@ fn climb<L: Lanes, B: Core>(pair: &Pair<B>, memory: &mut Memory, start: &Start, 
         let shift = scale.shift(separation);
         match walk::<L, B>(pair, axis * shift, simplex, margin + radii + shift, scale.coordinates) {
             Walk::Failed => return Climb::Failed,
-            Walk::Beyond { axis: beyond, separation: shifted } => {
+            Walk::Beyond { axis: beyond } => {
                 memory.axis = beyond;
-                memory.separation = shifted - shift * beyond.dot(axis) - radii;
                 return Climb::Beyond;
             }
             Walk::Closest { point, simplex: reduced } => {

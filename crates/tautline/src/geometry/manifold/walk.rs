@@ -21,8 +21,6 @@ pub(super) enum Walk {
     Beyond {
         /// Unit, from A to B.
         axis: Vec3,
-        /// How far the shifted B lies beyond A along it, in m.
-        separation: f32,
     },
     /// The point of the shifted B ⊖ A closest to the origin, in m, and the simplex that holds it.
     Closest { point: Vec3, simplex: Simplex },
@@ -57,7 +55,7 @@ pub(super) fn walk<L: Lanes, B: Core>(
         let (vertex, height) = pair.support::<L>(point);
         let lower_bound = height / length + shift.dot(point) / length;
         if lower_bound > limit {
-            return Walk::Beyond { axis: point / length, separation: lower_bound };
+            return Walk::Beyond { axis: point / length };
         }
         gap = length - lower_bound;
         if gap <= GAP * scale {

@@ -7,10 +7,11 @@
 
 use std::sync::Arc;
 
-use glam::{Mat3, Vec3};
+use glam::{Mat3, Vec2, Vec3};
 
 use super::held::{Held, HeldPoint};
 use super::pairs::{Detail, Pair};
+use super::tangents::Tangents;
 use crate::body::{Body, HalfSpace, Substance};
 use crate::geometry::manifold::{
     Former, MAX_POINTS, Manifold, Memory, Placement, Scratch, collide, collide_plane, collide_triangle,
@@ -293,15 +294,16 @@ fn hold(scene: Scene<'_>, manifold: &Manifold, (a, b): (&Placed, &Placed), pair:
         detail.held = Some(Held::new(normal, surface_a.against(&surface_b), points));
         return;
     };
-    let old_normal = old.normal();
+    let (old_normal, old_tangents, tangents) = (old.normal(), old.tangents(), Tangents::new(normal));
     let is_same_way = normal.dot(old_normal) > SAME_WAY;
     for point in points.iter_mut().filter(|_| is_same_way) {
         let Some(before) = predecessor(old, point.key(), point.on_a(), a.reach) else { continue };
         let distance = (b.center + b.axes * before.on_b()) - (a.center + a.axes * before.on_a());
         let sticks = before.normal_impulse() > 0.0 && distance.dot(old_normal) < LETS_GO;
-        let slip =
-            if sticks { (distance + before.slip()).reject_from_normalized(normal) } else { Vec3::ZERO };
-        point.continue_from(before.normal_impulse(), before.tangent_impulse(), slip);
+        let drift = distance + old_tangents.vector(before.slip());
+        let slip = if sticks { tangents.along(drift) } else { Vec2::ZERO };
+        let pull = tangents.along(old_tangents.vector(before.tangent_impulse()));
+        point.continue_from(before.normal_impulse(), pull, slip);
     }
     old.replace(normal, old.touch(), points);
 }

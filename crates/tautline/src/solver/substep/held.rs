@@ -1,8 +1,9 @@
 //! Where two parts touch, as it is kept from step to step with the multipliers that hold it.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
+use super::tangents::Tangents;
 use crate::body::Touch;
 use crate::simd::Row;
 
@@ -10,23 +11,36 @@ use crate::simd::Row;
 pub(crate) const MOST_POINTS: usize = 4;
 
 /// The contact of a pair, with as many points as it has. It is rows of eight numbers because the solver reads it for
-/// eight pairs at a time: first the header, then two rows for each point.
+/// eight pairs at a time: first the header, then for every two points the anchors of one, the friction of both and the
+/// anchors of the other.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Held {
     rows: Box<[Row]>,
 }
 
-/// Rows of a point.
-const POINT_ROWS: usize = 2;
+/// Where the anchors of point k are.
+const fn place_of_anchors(k: usize) -> usize {
+    1 + (3 * k).div_ceil(2)
+}
+
+/// Where the friction of points 2 i and 2 i + 1 is.
+const fn place_of_friction(i: usize) -> usize {
+    2 + 3 * i
+}
+
+/// Rows of a contact of so many points.
+const fn row_count(points: usize) -> usize {
+    1 + points + points.div_ceil(2)
+}
 
 /// One point of a contact: a material point of either body.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct HeldPoint {
     /// On a, in its frame (m); the normal multiplier (kg m); on b, in its frame (m); the key's bits.
     anchors: Row,
-    /// What the anchors have slid, to be taken off their distance (m, world); 0; the tangential multiplier (kg m,
-    /// world); 0.
-    friction: Row,
+    /// Along the tangents of the contact's normal: what the anchors have slid, to be taken off their distance (m), and
+    /// the multipliers (kg m).
+    friction: [f32; 4],
 }
 
 /// In lanes without a pair.
@@ -42,7 +56,7 @@ fn set_vector(row: &mut Row, at: usize, value: Vec3) {
 
 impl Held {
     pub(crate) fn new(normal: Vec3, touch: Touch, points: &[HeldPoint]) -> Self {
-        let mut held = Self { rows: vec![Row::ZERO; 1 + POINT_ROWS * points.len()].into() };
+        let mut held = Self { rows: vec![Row::ZERO; row_count(points.len())].into() };
         held.set(normal, touch, points);
         held
     }
@@ -59,21 +73,26 @@ impl Held {
     fn set(&mut self, normal: Vec3, touch: Touch, points: &[HeldPoint]) {
         let [x, y, z] = normal.to_array();
         self.rows[0] = Row([x, y, z, touch.friction, touch.restitution, touch.rolling_friction, 0.0, 0.0]);
-        for (rows, point) in self.rows[1..].chunks_exact_mut(POINT_ROWS).zip(points) {
-            rows.copy_from_slice(&[point.anchors, point.friction]);
+        for (i, two) in points.chunks(2).enumerate() {
+            let mut friction = Row::ZERO;
+            for (k, point) in (2 * i..).zip(two) {
+                self.rows[place_of_anchors(k)] = point.anchors;
+                friction.0[4 * (k % 2)..][..4].copy_from_slice(&point.friction);
+            }
+            self.rows[place_of_friction(i)] = friction;
         }
     }
 
     /// Whether it has so many points, 1 at least, and its numbers are finite, names aside.
     pub(super) fn is_sound(&self, count: usize) -> bool {
         let are_finite = |numbers: &[f32]| numbers.iter().all(|number| number.is_finite());
-        self.rows.len() == 1 + POINT_ROWS * count
+        self.rows.len() == row_count(count)
             && are_finite(&self.rows[0].0)
-            && self.points().all(|point| are_finite(&point.anchors.0[..7]) && are_finite(&point.friction.0))
+            && self.points().all(|point| are_finite(&point.anchors.0[..7]) && are_finite(&point.friction))
     }
 
     fn count(&self) -> usize {
-        self.rows.len() / POINT_ROWS
+        2 * self.rows.len().saturating_sub(1) / 3
     }
 
     /// Normal from a to b (unit, world), friction, restitution, rolling friction (m).
@@ -82,29 +101,53 @@ impl Held {
         held.and_then(|held| held.rows.first()).unwrap_or(&NOTHING)
     }
 
-    /// The anchors and the friction of point k, see [`HeldPoint`].
+    /// The anchors of point k, see [`HeldPoint`].
     #[inline(always)]
-    pub(super) fn rows_of_point(held: Option<&Self>, k: usize) -> [&Row; POINT_ROWS] {
-        let rows = held.and_then(|held| held.rows.get(1 + POINT_ROWS * k..1 + POINT_ROWS * (k + 1)));
-        match rows {
-            Some([anchors, friction]) => [anchors, friction],
-            _ => [&NOTHING; POINT_ROWS],
-        }
+    pub(super) fn anchors(held: Option<&Self>, k: usize) -> &Row {
+        held.and_then(|held| held.rows.get(place_of_anchors(k))).unwrap_or(&NOTHING)
+    }
+
+    /// The friction of points 2 i and 2 i + 1, see [`HeldPoint`].
+    #[inline(always)]
+    pub(super) fn friction_of_two(held: Option<&Self>, i: usize) -> &Row {
+        held.and_then(|held| held.rows.get(place_of_friction(i))).unwrap_or(&NOTHING)
     }
 
     pub(super) fn points(&self) -> impl Iterator<Item = HeldPoint> {
-        let points = self.rows.get(1..).unwrap_or_default().chunks_exact(POINT_ROWS);
-        points.map(|rows| HeldPoint { anchors: rows[0], friction: rows[1] })
+        (0..self.count()).map(|k| {
+            let (anchors, friction) =
+                (Self::anchors(Some(self), k), Self::friction_of_two(Some(self), k / 2));
+            let [even @ .., _, _, _, _] = friction.0;
+            let [_, _, _, _, odd @ ..] = friction.0;
+            HeldPoint { anchors: *anchors, friction: if k % 2 == 0 { even } else { odd } }
+        })
     }
 
-    /// The anchors and the friction of point k, if it has that.
+    /// Keeps the normal multipliers and the friction of points 2 i and 2 i + 1, as far as it has them.
     #[inline(always)]
-    pub(super) fn rows_of_point_mut(&mut self, k: usize) -> Option<&mut [Row; POINT_ROWS]> {
-        self.rows.get_mut(1 + POINT_ROWS * k..)?.first_chunk_mut()
+    pub(super) fn keep_two(
+        &mut self,
+        i: usize,
+        normal_impulses: impl Iterator<Item = f32>,
+        mut friction: Row,
+    ) {
+        for (k, impulse) in (2 * i..).zip(normal_impulses) {
+            match self.rows.get_mut(place_of_anchors(k)) {
+                Some(anchors) => anchors.0[3] = impulse,
+                None => friction.0[4 * (k % 2)..][..4].fill(0.0),
+            }
+        }
+        if let Some(row) = self.rows.get_mut(place_of_friction(i)) {
+            *row = friction;
+        }
     }
 
     pub(crate) fn normal(&self) -> Vec3 {
         vector(&self.rows[0], 0)
+    }
+
+    pub(super) fn tangents(&self) -> Tangents {
+        Tangents::new(self.normal())
     }
 
     /// The coefficients that it has between its surfaces.
@@ -144,18 +187,19 @@ impl HeldPoint {
         self.anchors.0[3]
     }
 
-    pub(super) fn slip(&self) -> Vec3 {
-        vector(&self.friction, 0)
+    /// In m, along the tangents.
+    pub(super) fn slip(&self) -> Vec2 {
+        Vec2::new(self.friction[0], self.friction[1])
     }
 
-    pub(super) fn tangent_impulse(&self) -> Vec3 {
-        vector(&self.friction, 4)
+    /// In kg m, along the tangents.
+    pub(super) fn tangent_impulse(&self) -> Vec2 {
+        Vec2::new(self.friction[2], self.friction[3])
     }
 
     /// Goes on as another point did: with its multipliers, and with what it has slid.
-    pub(super) fn continue_from(&mut self, normal_impulse: f32, tangent_impulse: Vec3, slip: Vec3) {
+    pub(super) fn continue_from(&mut self, normal_impulse: f32, tangent_impulse: Vec2, slip: Vec2) {
         self.anchors.0[3] = normal_impulse;
-        set_vector(&mut self.friction, 0, slip);
-        set_vector(&mut self.friction, 4, tangent_impulse);
+        self.friction = [slip.x, slip.y, tangent_impulse.x, tangent_impulse.y];
     }
 }

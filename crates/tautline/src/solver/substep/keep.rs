@@ -1,13 +1,13 @@
 //! The end of a step, for contacts: their multipliers are kept for the next one, and the anchors of what has slid follow.
 
 use super::RigidSolver;
-use super::batch::{Batch, HeaderRows, PointRows};
+use super::batch::{Batch, PointRows};
 use super::group::{Group, Groups};
 use super::held::Held;
 use super::pairs::Detail;
 use crate::parallel;
 use crate::settings::Settings;
-use crate::simd::{Kernel, LANES, Lanes, Vec3x8, run};
+use crate::simd::{Kernel, LANES, Lanes, Row, run};
 
 /// From so many pairs on it pays to do them side by side.
 const WORTHWHILE: usize = 1024;
@@ -41,9 +41,9 @@ impl Kernel for Keep<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
         let Self { groups, first, details } = self;
-        for Group { batches, headers, points, .. } in groups.iter().filter(|group| !group.is_empty()) {
-            for (batch, header) in batches.iter().zip(headers) {
-                keep::<L>(batch, header, &points[batch.range()], (first, details));
+        for Group { batches, points, .. } in groups.iter().filter(|group| !group.is_empty()) {
+            for batch in batches {
+                keep::<L>(batch, &points[batch.range()], (first, details));
             }
         }
     }
@@ -51,12 +51,7 @@ impl Kernel for Keep<'_> {
 
 /// The multipliers of a batch.
 #[inline(always)]
-fn keep<L: Lanes>(
-    batch: &Batch,
-    header: &HeaderRows,
-    points: &[PointRows],
-    (first, details): (u32, &mut [Detail]),
-) {
+fn keep<L: Lanes>(batch: &Batch, points: &[PointRows], (first, details): (u32, &mut [Detail])) {
     let mut indices = [usize::MAX; LANES];
     let mut is_any = false;
     for (index, pair) in indices.iter_mut().zip(&batch.pairs) {
@@ -67,31 +62,32 @@ fn keep<L: Lanes>(
     if !is_any {
         return;
     }
-    let tangents = [Vec3x8::<L>::load(&header.tangents[0]), Vec3x8::load(&header.tangents[1])];
-    for (k, rows) in points.iter().enumerate() {
+    for (number, two) in points.chunks(2).enumerate() {
         let mut before = [Held::header(None); LANES];
         for lane in 0..LANES {
             let held = details.get(indices[lane]).and_then(|detail| detail.held.as_ref());
-            [_, before[lane]] = Held::rows_of_point(held, k);
+            before[lane] = Held::friction_of_two(held, number);
         }
-        let [x, y, z, ..] = L::gather(before);
-        let friction = L::transpose(friction(&tangents, rows, Vec3x8::new(x, y, z)));
+        let friction = L::transpose(friction(two, L::gather(before)));
         for lane in 0..LANES {
             let held = details.get_mut(indices[lane]).and_then(|detail| detail.held.as_mut());
-            if let Some([anchors, row]) = held.and_then(|held| held.rows_of_point_mut(k)) {
-                anchors.0[3] = rows.normal_impulse.0[lane];
-                friction[lane].store(row);
+            if let Some(held) = held {
+                let mut row = Row::ZERO;
+                friction[lane].store(&mut row);
+                held.keep_two(number, two.iter().map(|rows| rows.normal_impulse.0[lane]), row);
             }
         }
     }
 }
 
-/// The columns of the points' friction, see `HeldPoint`, given what had slid when the step began.
+/// The columns of the friction of one or two points, given those of when the step began: see `HeldPoint`.
 #[inline(always)]
-fn friction<L: Lanes>(tangents: &[Vec3x8<L>; 2], rows: &PointRows, slip: Vec3x8<L>) -> [L; LANES] {
-    let [first, second] = tangents;
-    let pull = *first * L::load(&rows.tangent_impulses[0]) + *second * L::load(&rows.tangent_impulses[1]);
-    let slip = slip - *first * L::load(&rows.slid[0]) - *second * L::load(&rows.slid[1]);
-    let zero = L::splat(0.0);
-    [slip.x, slip.y, slip.z, zero, pull.x, pull.y, pull.z, zero]
+fn friction<L: Lanes>(points: &[PointRows], mut columns: [L; LANES]) -> [L; LANES] {
+    for (rows, columns) in points.iter().zip(columns.chunks_exact_mut(4)) {
+        for axis in 0..2 {
+            columns[axis] = columns[axis] - L::load(&rows.slid[axis]);
+            columns[2 + axis] = L::load(&rows.tangent_impulses[axis]);
+        }
+    }
+    columns
 }

@@ -36,6 +36,7 @@ mod rolling;
 mod search;
 mod stack;
 mod sweep;
+mod tangents;
 mod way;
 
 use serde::{Deserialize, Serialize};

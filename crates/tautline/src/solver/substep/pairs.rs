@@ -51,7 +51,7 @@ const CHUNK: usize = 1024;
 /// Lists grow by this part more than they have to, …
 const GROWTH: usize = 32;
 /// … and are cut back if more than this part of them is not in use.
-const WASTE: usize = 16;
+const WASTE: usize = 32;
 
 /// A stamp that no versions add up to.
 pub(super) const NEVER: u32 = u32::MAX;

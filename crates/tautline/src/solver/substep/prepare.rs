@@ -4,6 +4,7 @@ use crate::simd::{LANES, Lanes, Matrix3x8, Row, Vec3x8, rows_at};
 
 use super::batch::{Batch, HeaderRows, NO_PAIR, PointRows};
 use super::held::Held;
+use super::tangents::with_tangents;
 
 /// Where a body is, as two rows: centre, 1/m, 1/√I, response; first and second axis, two numbers of no concern here.
 pub(super) struct Poses<'a>(pub(super) &'a [Row]);
@@ -66,23 +67,17 @@ fn held<'a>(batch: &Batch, contact_of: impl Fn(u32) -> Option<&'a Held>) -> [Opt
     held
 }
 
+/// One row of each.
 #[inline(always)]
-fn headers_of<'a>(held: &[Option<&'a Held>; LANES]) -> [&'a Row; LANES] {
+fn rows_of<'a>(
+    held: &[Option<&'a Held>; LANES],
+    row: impl Fn(Option<&'a Held>) -> &'a Row,
+) -> [&'a Row; LANES] {
     let mut rows = [Held::header(None); LANES];
     for lane in 0..LANES {
-        rows[lane] = Held::header(held[lane]);
+        rows[lane] = row(held[lane]);
     }
     rows
-}
-
-/// The anchors and the friction of point k.
-#[inline(always)]
-fn rows_of<'a>(held: &[Option<&'a Held>; LANES], k: usize) -> ([&'a Row; LANES], [&'a Row; LANES]) {
-    let (mut anchors, mut friction) = ([Held::header(None); LANES], [Held::header(None); LANES]);
-    for lane in 0..LANES {
-        [anchors[lane], friction[lane]] = Held::rows_of_point(held[lane], k);
-    }
-    (anchors, friction)
 }
 
 /// Fills the rows of a batch, and adds what its multipliers do to `accumulated`. Returns what only few batches have any of.
@@ -95,7 +90,7 @@ pub(super) fn fill<'a, L: Lanes>(
     accumulated: &mut [Row],
 ) -> Rare {
     let held = held(batch, contact_of);
-    let shared = L::gather(headers_of(&held));
+    let shared = L::gather(rows_of(&held, Held::header));
     let normal = Vec3x8::new(shared[0], shared[1], shared[2]);
     let directions = with_tangents(normal);
     normal.store(&mut header.normal);
@@ -117,15 +112,19 @@ pub(super) fn fill<'a, L: Lanes>(
     let (local_a, local_b) = (a.in_frame(&directions), b.in_frame(&directions));
     let between = b.center - a.center;
     let counts = L::load(&Row(batch.counts.map(f32::from)));
+    let mut both = [L::splat(0.0); LANES];
     for (k, rows) in points.iter_mut().enumerate() {
-        let (anchors, friction) = rows_of(&held, k);
-        let (anchors, friction) = (L::gather(anchors), L::gather(friction));
+        let anchors = L::gather(rows_of(&held, |held| Held::anchors(held, k)));
+        if k % 2 == 0 {
+            both = L::gather(rows_of(&held, |held| Held::friction_of_two(held, k / 2)));
+        }
+        let [even @ .., _, _, _, _] = both;
+        let [_, _, _, _, odd @ ..] = both;
+        let [slip_first, slip_second, pull_first, pull_second] = if k % 2 == 0 { even } else { odd };
         let on_a = Vec3x8::new(anchors[0], anchors[1], anchors[2]);
         let on_b = Vec3x8::new(anchors[4], anchors[5], anchors[6]);
         let distance = between + (b.axes.apply(on_b) - a.axes.apply(on_a));
-        let drift = distance + Vec3x8::new(friction[0], friction[1], friction[2]);
-        let tangential = Vec3x8::new(friction[4], friction[5], friction[6]);
-        let impulses = [anchors[3], directions[1].dot(tangential), directions[2].dot(tangential)];
+        let impulses = [anchors[3], pull_first, pull_second];
         let mut masses = [L::splat(0.0); 3];
         let [first_a, second_a] = &mut rows.tangents_a;
         let [first_b, second_b] = &mut rows.tangents_b;
@@ -150,9 +149,9 @@ pub(super) fn fill<'a, L: Lanes>(
         exists.and(masses[1].min(masses[2])).store(&mut rows.tangent_mass);
         exists.select(normal.dot(distance), L::splat(OUT_OF_REACH)).store(&mut rows.separation);
         impulses[0].store(&mut rows.normal_impulse);
-        for axis in 0..2 {
+        for (axis, slip) in [slip_first, slip_second].into_iter().enumerate() {
             impulses[axis + 1].store(&mut rows.tangent_impulses[axis]);
-            directions[axis + 1].dot(drift).store(&mut rows.drift[axis]);
+            (directions[axis + 1].dot(distance) + slip).store(&mut rows.drift[axis]);
         }
         rows.slid = [Row::ZERO; 2];
     }
@@ -181,16 +180,4 @@ fn shift<L: Lanes>(columns: &mut [L; LANES], impulse: Vec3x8<L>, inverse_mass: L
     columns[0] = columns[0] + impulse.x * inverse_mass;
     columns[1] = columns[1] + impulse.y * inverse_mass;
     columns[2] = columns[2] + impulse.z * inverse_mass;
-}
-
-/// A right-handed frame around a unit vector (Duff et al. 2017, Building an orthonormal basis, revisited).
-#[inline(always)]
-fn with_tangents<L: Lanes>(n: Vec3x8<L>) -> [Vec3x8<L>; 3] {
-    let one = L::splat(1.0);
-    let sign = L::splat(0.0).greater(n.z).select(-one, one);
-    let a = -one / (sign + n.z);
-    let b = n.x * n.y * a;
-    let first = Vec3x8::new(one + sign * n.x * n.x * a, sign * b, -(sign * n.x));
-    let second = Vec3x8::new(b, sign + n.y * n.y * a, -n.y);
-    [n, first, second]
 }

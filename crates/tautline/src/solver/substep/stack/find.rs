@@ -176,7 +176,7 @@ fn is_delicate(contacts: &[Touch], pairs: &Pairs) -> bool {
     let bears = |held: &Held| held.points().any(|point| point.normal_impulse() > 0.0);
     let is_strained = |held: &Held| {
         held.points().any(|point| {
-            let (normal, friction) = (point.normal_impulse(), point.tangent_impulse().norm());
+            let (normal, friction) = (point.normal_impulse(), point.tangent_impulse().extend(0.0).norm());
             normal == 0.0 || friction > STRAINED * held.friction() * normal
         })
     };

@@ -9,7 +9,7 @@ use super::super::super::lineup::{Entry, Lineup, NOBODY, Role};
 use super::super::super::pairs::{Key, Pairs};
 use super::super::{Found, find};
 use crate::body::Touch;
-use crate::simd::Instructions;
+use crate::simd::{Instructions, Row};
 
 const FRICTION: f32 = 0.5;
 
@@ -60,9 +60,9 @@ impl Scene {
     /// Gives every contact a load, and friction that is this share of the greatest.
     fn loaded(mut self, share: f32) -> Self {
         for held in self.pairs.details.iter_mut().filter_map(|detail| detail.held.as_mut()) {
-            for k in 0..MOST_POINTS {
-                let Some([anchors, friction]) = held.rows_of_point_mut(k) else { break };
-                (anchors.0[3], friction.0[4]) = (1.0, share * FRICTION);
+            let pull = share * FRICTION;
+            for i in 0..MOST_POINTS / 2 {
+                held.keep_two(i, [1.0; 2].into_iter(), Row([0.0, 0.0, pull, 0.0, 0.0, 0.0, pull, 0.0]));
             }
         }
         self
