@@ -146,7 +146,7 @@ impl Kernel for Detect<'_> {
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn update<L: Lanes>(scene: Scene<'_>, pair: &mut Pair, detail: &mut Detail, scratch: &mut Scratch) {
     let a = scene.placed(pair.a);
-    scratch.former = Former::new(detail.held.iter().flat_map(Held::points).map(|point| point.key()));
+    scratch.former = detail.held.as_ref().map_or_else(Former::default, |held| Former::new(held.keys()));
     let (manifold, b) = match scene.shape(pair.b) {
         Some(shape) => {
             let b = scene.placed(pair.b);

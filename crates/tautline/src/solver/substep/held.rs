@@ -113,6 +113,7 @@ impl Held {
         held.and_then(|held| held.rows.get(place_of_friction(i))).unwrap_or(&NOTHING)
     }
 
+    #[inline(always)]
     pub(super) fn points(&self) -> impl Iterator<Item = HeldPoint> {
         (0..self.count()).map(|k| {
             let (anchors, friction) =
@@ -121,6 +122,12 @@ impl Held {
             let [_, _, _, _, odd @ ..] = friction.0;
             HeldPoint { anchors: *anchors, friction: if k % 2 == 0 { even } else { odd } }
         })
+    }
+
+    /// The names of its points.
+    #[inline(always)]
+    pub(super) fn keys(&self) -> impl Iterator<Item = u32> {
+        (0..self.count()).map(|k| self.rows[place_of_anchors(k)].0[7].to_bits())
     }
 
     /// Keeps the normal multipliers and the friction of points 2 i and 2 i + 1, as far as it has them.

@@ -68,12 +68,12 @@ pub(in super::super) fn find(
         let is_one = places.len() <= MOST_BODIES.min(left)
             && touches.len() <= MOST_PAIRS
             && !places.iter().any(|&place| assembly_of[place as usize] != NOBODY)
-            && fastest(touches, pairs, (crew, timing.substeps)) < quiet
             && (is_hard(places, touches, crew) || places.len() <= FEW && is_delicate(touches, pairs));
         left -= if is_one { places.len() } else { 0 };
         is_one
     };
-    let stacks = islands(groups, lineup.solved).into_iter().filter(|island| is_stack(island));
+    let is_restless = |active: &Active| speed(active, pairs, (crew, timing.substeps)) >= quiet;
+    let stacks = islands(groups, lineup.solved, is_restless).into_iter().filter(|island| is_stack(island));
     let found = |Island { places, touches }| {
         let pairs = touches.into_iter().map(|(pair, _)| pair).collect();
         Found { places, pairs }
@@ -81,8 +81,9 @@ pub(in super::super) fn find(
     stacks.map(found).collect()
 }
 
-/// What touches something, in the order of the lowest places, but for islands of too many bodies.
-fn islands(groups: &Groups, solved: usize) -> Vec<Island> {
+/// What touches something, in the order of the lowest places, but for islands of too many bodies, and those in which
+/// not all is quiet.
+fn islands(groups: &Groups, solved: usize, is_restless: impl Fn(&Active) -> bool) -> Vec<Island> {
     let mut sets = Sets::new(solved);
     // Of each island by the lowest of its places, which is the root of the set; of the others 1 if they touch something.
     let mut sizes = vec![0_u32; solved];
@@ -105,6 +106,15 @@ fn islands(groups: &Groups, solved: usize) -> Vec<Island> {
     if !(0..solved as u32).any(|place| sets.root(place) == place && is_small(sizes[place as usize])) {
         return islands;
     }
+    let root_of = |sets: &mut Sets, Active { place_a, place_b, moves_a, .. }: &Active| {
+        sets.root(if *moves_a { *place_a } else { *place_b }) as usize
+    };
+    for active in groups.active() {
+        let root = root_of(&mut sets, active);
+        if is_small(sizes[root]) && is_restless(active) {
+            sizes[root] = 0;
+        }
+    }
     let mut numbers = vec![0; solved];
     for place in (0..solved as u32).filter(|&place| sizes[place as usize] > 0) {
         let root = sets.root(place);
@@ -118,8 +128,7 @@ fn islands(groups: &Groups, solved: usize) -> Vec<Island> {
         islands[numbers[root as usize]].places.push(place);
     }
     for active in groups.active() {
-        let place = if active.moves_a { active.place_a } else { active.place_b };
-        let root = sets.root(place) as usize;
+        let root = root_of(&mut sets, active);
         if is_small(sizes[root]) {
             islands[numbers[root]].touches.push((active.pair, [active.place_a, active.place_b]));
         }
@@ -160,14 +169,11 @@ fn heights(places: &[u32], contacts: &[Touch]) -> Vec<u32> {
     heights
 }
 
-/// How far any two surfaces come nearer to each other or part in a step, in m. How they slide does not matter.
-fn fastest(contacts: &[Touch], pairs: &Pairs, (crew, substeps): (&Crew, f32)) -> f32 {
-    let speed = |(index, ends): &Touch| {
-        let normal = pairs.details[*index as usize].held.as_ref().map(|held| held.normal());
-        let [a, b] = ends.map(|place| crew.motion(place as usize, substeps));
-        (a.0 - b.0).dot(normal.unwrap_or_default()).abs() + a.1 + b.1
-    };
-    contacts.iter().map(speed).fold(0.0, f32::max)
+/// How far two surfaces come nearer to each other or part in a step, in m. How they slide does not matter.
+fn speed(touch: &Active, pairs: &Pairs, (crew, substeps): (&Crew, f32)) -> f32 {
+    let normal = pairs.details[touch.pair as usize].held.as_ref().map(|held| held.normal());
+    let [a, b] = [touch.place_a, touch.place_b].map(|place| crew.motion(place as usize, substeps));
+    (a.0 - b.0).dot(normal.unwrap_or_default()).abs() + a.1 + b.1
 }
 
 /// Whether nothing bore the bodies yet, or some contact is about to slide or bears at a part of its points only.
